@@ -1,0 +1,41 @@
+"""What the rider's head feels, for whole runs at a time."""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+STANDARD_GRAVITY = 9.80665  # m/s^2, by definition (CGPM 1901)
+_FLU_TO_FRD = np.array([1.0, -1.0, -1.0])
+
+
+def felt(
+    q_WS: ArrayLike, w_WS_W: ArrayLike, alpha_WS_W: ArrayLike, a_WS_W: ArrayLike, head_S: ArrayLike
+) -> tuple[Array, Array]:
+    """Specific force (m/s^2) and angular rate (rad/s) at the rider's head, both (n, 3) in cabin FRD axes.
+
+    f = R_SW (a + alpha x r + w x (w x r) - g_W) with r = R_WS head_S and g_W = (0, 0, -9.80665).
+
+    q_WS (n, 4); w_WS_W rad/s, alpha_WS_W rad/s^2, a_WS_W m/s^2 (n, 3) in W; head_S (3,) m from the sphere centre in S.
+    """
+    q, w, alpha, a, head = (np.asarray(x, dtype=np.float64) for x in (q_WS, w_WS_W, alpha_WS_W, a_WS_W, head_S))
+    r = _turn(q, np.broadcast_to(head, w.shape))
+    force_W = a + np.cross(alpha, r) + np.cross(w, np.cross(w, r))
+    force_W[:, 2] += STANDARD_GRAVITY
+    to_cabin = q * np.array([1.0, -1.0, -1.0, -1.0])
+    return _turn(to_cabin, force_W) * _FLU_TO_FRD, _turn(to_cabin, w) * _FLU_TO_FRD
+
+
+def direction_error(f: ArrayLike, g: ArrayLike) -> Array:
+    """Angle (rad, (n,)) between two specific forces (n, 3); 0 where one of them is zero."""
+    f, g = np.asarray(f, dtype=np.float64), np.asarray(g, dtype=np.float64)
+    error: Array = np.arctan2(np.linalg.norm(np.cross(f, g), axis=1), np.sum(f * g, axis=1))
+    return error
+
+
+def _turn(q: Array, v: Array) -> Array:
+    """Rotate each row of v (n, 3) by the same row of q (n, 4)."""
+    u = q[:, 1:]
+    t = 2.0 * np.cross(u, v)
+    turned: Array = v + q[:, :1] * t + np.cross(u, t)
+    return turned

@@ -1,0 +1,24 @@
+"""Actuator limits, per wheel and per stage axis."""
+
+from dataclasses import dataclass
+
+from ..rotation import Vec3
+
+
+@dataclass(frozen=True, slots=True)
+class WheelLimits:
+    """Largest magnitude per wheel: speed rad/s, acceleration rad/s^2, jerk rad/s^3."""
+
+    speed: Vec3
+    acceleration: Vec3
+    jerk: Vec3
+
+
+@dataclass(frozen=True, slots=True)
+class StageLimits:
+    """Largest magnitude per axis x, y, z of W: travel from the centre m, speed m/s, acceleration m/s^2, jerk m/s^3."""
+
+    travel: Vec3
+    speed: Vec3
+    acceleration: Vec3
+    jerk: Vec3

@@ -1,0 +1,49 @@
+"""The one table of what a log holds: topics, message names, fields with their units.
+
+Every message is flat and all its fields are doubles (`/status` and `/tf` apart, which the recording describes), so that plot
+tools draw one line a field and a message has a fixed layout on the wire. `tick_row` gives the numbers of the first four
+topics in the order of the table; `/felt` is derived from them.
+"""
+
+from dataclasses import dataclass
+
+from .states import Tick
+
+_VECTORS = {"w": "rad_s", "f": "m_s2", "alpha": "rad_s2", "p": "m", "v": "m_s", "a": "m_s2"}
+
+
+@dataclass(frozen=True, slots=True)
+class Topic:
+    """A channel of flat double fields."""
+
+    name: str
+    schema: str
+    fields: tuple[str, ...]
+
+
+def _fields(quaternion: str, vectors: str) -> tuple[str, ...]:
+    """time, a quaternion unless empty, and xyz of each named vector with its unit."""
+    names = ["time_s"]
+    names += [f"{quaternion}_{c}" for c in "wxyz"] if quaternion else []
+    names += [f"{v}{c}_{_VECTORS[v]}" for v in vectors.split() for c in "xyz"]
+    return tuple(names)
+
+
+TOPICS = (
+    Topic("/vehicle", "atlas.Vehicle", _fields("q_nb", "w f")),
+    Topic("/cue", "atlas.Cue", _fields("q_ws", "w p v a")),
+    Topic("/motion", "atlas.Motion", (*_fields("q_ws", "w alpha p v a"), "wheels_limited", "stage_limited")),
+    Topic("/wheels", "atlas.Wheels", ("time_s", "w1_rad_s", "w2_rad_s", "w3_rad_s", "a1_rad_s2", "a2_rad_s2", "a3_rad_s2")),
+    Topic("/felt", "atlas.Felt", (*_fields("", "f w"), "direction_error_rad")),
+)
+
+
+def tick_row(tick: Tick) -> tuple[float, ...]:
+    """All numbers of a tick in the order of the first four topics of `TOPICS`."""
+    v, c, m, u = tick.vehicle, tick.cue, tick.motion, tick.wheels
+    return (
+        *(v.time, *v.q_NB, *v.w_NB_B, *v.f_B),
+        *(c.time, *c.q_WS, *c.w_WS_W, *c.p_WS_W, *c.v_WS_W, *c.a_WS_W),
+        *(m.time, *m.q_WS, *m.w_WS_W, *m.alpha_WS_W, *m.p_WS_W, *m.v_WS_W, *m.a_WS_W, *m.limited),
+        *(u.time, *u.speed, *u.acceleration),
+    )
