@@ -92,7 +92,7 @@ def continuous(q: Quat, previous: Quat) -> Quat:
 
 
 def rotate(q: Quat, v: Vec3) -> Vec3:
-    """Vector in the outer frame, q v q*: `v_A = rotate(q_AB, v_B)`."""
+    """The vector seen from the outer frame: v_A = q_AB v_B q_AB*."""
     w, x, y, z = q
     a, b, c = v
     # v + 2 w (u x v) + 2 u x (u x v), with u = (x, y, z)

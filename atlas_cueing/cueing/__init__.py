@@ -1,0 +1,1 @@
+"""Vehicle state to cue: what the platform should do, before anyone asks whether it can."""
