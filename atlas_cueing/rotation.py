@@ -112,10 +112,17 @@ def exp(phi: Vec3) -> Quat:
 
 def log(q: Quat) -> Vec3:
     """Rotation vector (rad) of a unit quaternion, by the shorter way: |log q| <= pi."""
-    w, x, y, z = q if q[0] >= 0.0 else (-q[0], -q[1], -q[2], -q[3])
+    return log_unwound(q if q[0] >= 0.0 else (-q[0], -q[1], -q[2], -q[3]))
+
+
+def log_unwound(q: Quat) -> Vec3:
+    """Rotation vector (rad) of a unit quaternion as its sign tells: by the longer way, |log q| > pi, where w < 0."""
+    w, x, y, z = q
     s = hypot(x, y, z)
-    if s < 0.5 * _SMALL_ANGLE:
+    if s < 0.5 * _SMALL_ANGLE and w > 0.0:
         k = 2.0 + s * s / 3.0  # 2 asin(s) / s
+    elif s == 0.0:
+        return (2.0 * pi, 0.0, 0.0)  # a full turn about no axis in particular
     else:
         k = 2.0 * atan2(s, w) / s
     return (k * x, k * y, k * z)

@@ -1,0 +1,80 @@
+"""The whole of smoothing: sphere and stage side by side."""
+
+from math import hypot, isfinite
+
+from ..errors import PlanningError
+from ..rotation import Mat3
+from ..signals import Cue, Motion, StageLimits, WheelLimits
+from .sphere import SphereSmoothing
+from .stage import StageSmoothing
+
+_UNIT = 1e-6  # a quaternion whose norm is off by more is no orientation
+_ABSURD_RATE = 1e3  # rad/s; nobody asks a cabin for more, and the arithmetic stays far from overflow below it
+
+
+class Smoothing:
+    """Turns cues into motion inside the limits of wheels and stage, at a fixed tick.
+
+    It starts at rest in the first cue's orientation with the stage in its centre. Whatever the cue is, every motion keeps
+    every limit; a cue that is no cue (not finite, no rotation, absurd) is answered with the certified stop.
+    Motion times are its own: start + n dt.
+    """
+
+    def __init__(
+        self,
+        *,
+        dt: float,
+        wheels_from_sphere: Mat3,
+        sphere_from_wheels: Mat3,
+        wheel_limits: WheelLimits,
+        stage_limits: StageLimits,
+    ) -> None:
+        """Tick dt in s; the maps are J^-1 and J of the platform. Raises ValueError for limits that leave no room to move."""
+        self._dt = dt
+        self._sphere = SphereSmoothing(dt, wheels_from_sphere, sphere_from_wheels, wheel_limits)
+        self._stage = StageSmoothing(dt, stage_limits)
+        self._start: float | None = None
+        self._ticks = 0
+
+    def step(self, cue: Cue) -> Motion:
+        """Motion at the cue's time, one tick after the last one."""
+        if self._start is None:
+            return self._begin(cue)
+        self._ticks += 1
+        sphere_met, stage_met = self._turn(cue), self._stage.step(cue)
+        return self._motion(self._start + self._ticks * self._dt, sphere_met, stage_met)
+
+    def _begin(self, cue: Cue) -> Motion:
+        if not _is_orientation(cue):
+            raise PlanningError(f"the first cue must be an orientation; got {cue}")
+        self._start = cue.time
+        self._sphere.start(cue)
+        return self._motion(cue.time, True, True)
+
+    def _turn(self, cue: Cue) -> bool:
+        try:
+            if _is_orientation(cue):
+                return self._sphere.step(cue)
+        except PlanningError:
+            pass
+        self._sphere.stop()
+        return False
+
+    def _motion(self, time: float, sphere_met: bool, stage_met: bool) -> Motion:
+        sphere, stage = self._sphere, self._stage
+        return Motion(
+            time,
+            sphere.q_WS,
+            sphere.w_WS_W,
+            sphere.alpha_WS_W,
+            stage.p_WS_W,
+            stage.v_WS_W,
+            stage.a_WS_W,
+            (0.0 if sphere_met else 1.0, 0.0 if stage_met else 1.0),
+        )
+
+
+def _is_orientation(cue: Cue) -> bool:
+    """Whether the cue's rotation can be followed at all."""
+    rate = hypot(*cue.w_WS_W)
+    return isfinite(cue.time) and abs(hypot(*cue.q_WS) - 1.0) <= _UNIT and rate <= _ABSURD_RATE

@@ -1,0 +1,127 @@
+"""Rotation smoothed in wheel space, where its limits are.
+
+With e = log(q_cue q^-1) the turn still to go (rotation vector in W, |e| its geodesic length) and n its direction, the sphere
+is asked for
+
+    Omega = Omega_cue + g(|e|) n          alpha = alpha_cue - g'(|e|) g(|e|) n
+
+so that |e|' = -g(|e|). The closing speed g is gain |e| near the cue, and far from it the speed from which the wheels can
+still brake to a stop on the cue. J^-1 (paper, Eq. 22, and Eq. 19 for alpha) turns both into targets of the three wheels, each
+of which keeps its own speed, acceleration and jerk. The turn each wheel really makes goes back through J and Eq. 20 into the
+orientation.
+"""
+
+from collections.abc import Sequence
+from math import inf, pi
+
+from ..rotation import (
+    IDENTITY,
+    ZERO,
+    Mat3,
+    Vec3,
+    add,
+    apply,
+    conjugate,
+    continuous,
+    integrate_base,
+    log_unwound,
+    multiply,
+    norm,
+    normalise,
+    scale,
+    subtract,
+)
+from ..signals import Cue, WheelLimits
+from .axis import Axis, Step
+from .stop import approach
+
+_GAIN = 4.0  # 1/s; a small orientation error is taken back with a time constant of 0.25 s
+_BRAKING_SHARE = 0.5  # of the wheels' acceleration and jerk, planned with on the way to a distant cue; the rest is reserve
+_MET_ANGLE = 0.1 * pi / 180.0  # rad; a larger lag than this is reported as limited
+_OTHER_WAY = 0.5  # rad beyond half a turn before a catch-up under way changes over to the other way round
+
+
+class SphereSmoothing:
+    """Orientation, rate and acceleration of the sphere, one tick at a time, inside the wheels' limits."""
+
+    def __init__(self, dt: float, wheels_from_sphere: Mat3, sphere_from_wheels: Mat3, limits: WheelLimits) -> None:
+        """Start at rest. dt in s; the maps are J^-1 (rad/s of wheels per rad/s of sphere) and J."""
+        self._dt = dt
+        self._wheels_from_sphere, self._sphere_from_wheels = wheels_from_sphere, sphere_from_wheels
+        self._axes = [Axis(dt, *limit) for limit in zip(limits.speed, limits.acceleration, limits.jerk, strict=True)]
+        self._speed, self._acceleration = ZERO, ZERO
+        self._left, self._w_cue = IDENTITY, ZERO
+        self.q_WS, self.w_WS_W, self.alpha_WS_W = IDENTITY, ZERO, ZERO
+
+    def start(self, cue: Cue) -> None:
+        """Begin at rest in the cue's orientation."""
+        self.q_WS, self._w_cue = normalise(cue.q_WS), cue.w_WS_W
+
+    def step(self, cue: Cue) -> bool:
+        """Follow the cue for one tick; whether the wheels gave it. Raises PlanningError and stays where it is."""
+        to_go = self._to_go(cue)
+        speed, acceleration = self._demand(cue, to_go)
+        steps = [
+            axis.towards(*now)
+            for axis, *now in zip(self._axes, self._speed, self._acceleration, speed, acceleration, strict=True)
+        ]
+        self._fly(steps)
+        return norm(to_go) <= _MET_ANGLE and all(step.met for step in steps)
+
+    def stop(self) -> None:
+        """Follow the certified stop for one tick."""
+        self._fly([axis.stopping(v, a) for axis, v, a in zip(self._axes, self._speed, self._acceleration, strict=True)])
+        self._w_cue = self.w_WS_W
+
+    def _to_go(self, cue: Cue) -> Vec3:
+        """Rotation vector (W) that would be left at the end of the tick if the sphere took the cue's rate.
+
+        By the shorter way, but a catch-up under way is not turned round by a cue that wanders past half a turn.
+        """
+        turn = scale(0.5 * self._dt, add(self.w_WS_W, cue.w_WS_W))
+        ahead = integrate_base(self.q_WS, turn, self.w_WS_W, cue.w_WS_W, self._dt)
+        self._left = continuous(multiply(cue.q_WS, conjugate(ahead)), self._left)
+        to_go = log_unwound(self._left)
+        if norm(to_go) > pi + _OTHER_WAY:
+            w, x, y, z = self._left
+            self._left = (-w, -x, -y, -z)
+            to_go = log_unwound(self._left)
+        return to_go
+
+    def _demand(self, cue: Cue, to_go: Vec3) -> tuple[Vec3, Vec3]:
+        """Wheel speeds and accelerations asked for at the end of the tick."""
+        angle = norm(to_go)
+        direction = scale(1.0 / angle, apply(self._wheels_from_sphere, to_go)) if angle > 0.0 else ZERO
+        closing, slope = approach(angle, _GAIN, *self._braking(direction))
+        speed = apply(self._wheels_from_sphere, cue.w_WS_W)
+        acceleration = apply(self._wheels_from_sphere, scale(1.0 / self._dt, subtract(cue.w_WS_W, self._w_cue)))
+        self._w_cue = cue.w_WS_W
+        spare = self._spare(speed, direction)
+        closing, slope = (closing, slope) if closing < spare else (spare, 0.0)
+        return add(speed, scale(closing, direction)), subtract(acceleration, scale(slope * closing, direction))
+
+    def _braking(self, direction: Vec3) -> tuple[float, float]:
+        """Angular acceleration and jerk for a catch-up along the turn that moves the wheels by `direction` per rad."""
+        acceleration = min((a.acceleration / abs(d) for a, d in zip(self._axes, direction, strict=True) if d), default=1.0)
+        jerk = min((a.jerk / abs(d) for a, d in zip(self._axes, direction, strict=True) if d), default=1.0)
+        return _BRAKING_SHARE * acceleration, _BRAKING_SHARE * jerk
+
+    def _spare(self, wheels: Vec3, direction: Vec3) -> float:
+        """Largest closing rate (rad/s) that keeps each wheel, busy with the cue already, inside its speed."""
+        spare = inf
+        for axis, busy, d in zip(self._axes, wheels, direction, strict=True):
+            if d:
+                spare = min(spare, max(axis.speed - (busy if d > 0.0 else -busy), 0.0) / abs(d))
+        return spare
+
+    def _fly(self, steps: Sequence[Step]) -> None:
+        """Take the steps of the three wheels and integrate the orientation from them (Eq. 16, 19, 20).
+
+        The one place where the orientation is renormalised.
+        """
+        turns, speeds, accelerations = zip(*((s.displacement, s.v, s.a) for s in steps), strict=True)
+        w0, self.w_WS_W = self.w_WS_W, apply(self._sphere_from_wheels, speeds)
+        q = integrate_base(self.q_WS, apply(self._sphere_from_wheels, turns), w0, self.w_WS_W, self._dt)
+        self.q_WS = normalise(q)
+        self._speed, self._acceleration = speeds, accelerations
+        self.alpha_WS_W = apply(self._sphere_from_wheels, accelerations)

@@ -1,0 +1,99 @@
+"""The stage inside its rails, for ever.
+
+Each axis of W follows its cue with the speed v_cue + g(e), the acceleration a_cue - g'(e) g(e), e = x_cue - x, and a
+speed towards either end of the travel from which it can stop in time. That makes for a good ride; what makes it safe is the
+certificate: a step is flown only if the jerk-limited stop from where it leads stays inside the travel, and otherwise the
+stop that was certified a tick ago is flown, whose every later state is certified as well (`stop`).
+
+Between ticks a step stays within A dt^2 / 8 of the line between its ends, so that much of the travel is left unused; the
+stop itself is checked in continuous time.
+"""
+
+from math import copysign, isfinite
+
+from ..errors import PlanningError
+from ..rotation import Vec3
+from ..signals import Cue, StageLimits
+from .axis import Axis, Step
+from .stop import Stop, approach
+
+_GAIN = 4.0  # 1/s; a small position error is taken back with a time constant of 0.25 s
+_END_GAIN = 10.0  # 1/s; over the last centimetres of the travel the speed falls with a time constant of 0.1 s
+_BRAKING_SHARE = 0.7  # of acceleration and jerk, planned with towards the ends of the travel and a distant cue
+_MET_DISTANCE = 1e-3  # m; a larger lag than this is reported as limited
+
+
+class RailAxis:
+    """One axis of the stage: position, speed and acceleration, one tick at a time."""
+
+    def __init__(self, dt: float, travel: float, speed: float, acceleration: float, jerk: float) -> None:
+        """Start at rest in the centre. Raises ValueError for limits that leave no room to move between two ticks."""
+        self._axis = Axis(dt, speed, acceleration, jerk)
+        self.travel = travel - acceleration * dt * dt / 8.0
+        if not self.travel > 0.0:
+            raise ValueError(f"travel > acceleration dt^2 / 8 = {acceleration * dt * dt / 8.0:.3g} m; got {travel} m")
+        self.p = self.v = self.a = 0.0
+
+    def step(self, p: float, v: float, a: float) -> bool:
+        """Follow a cue for one tick; whether it was given. Any input is safe."""
+        to_go = p - (self.p + 0.5 * self._axis.dt * (self.v + v))
+        try:
+            step = self._certified(self._axis.towards(self.v, self.a, *self._demand(to_go, v, a)))
+        except PlanningError:
+            step = self._axis.stopping(self.v, self.a)
+        self.p, self.v, self.a = self.p + step.displacement, step.v, step.a
+        return step.met and abs(to_go) <= _MET_DISTANCE
+
+    def _demand(self, to_go: float, v: float, a: float) -> tuple[float, float]:
+        """Speed and acceleration asked for at the end of the tick."""
+        if not isfinite(to_go + v + a):
+            return 0.0, 0.0
+        a_max, j_max = _BRAKING_SHARE * self._axis.acceleration, _BRAKING_SHARE * self._axis.jerk
+        closing, slope = approach(abs(to_go), _GAIN, a_max, j_max)
+        v_target, a_target = v + copysign(closing, to_go), a - slope * copysign(closing, to_go)
+        ahead = self.p + 0.5 * self._axis.dt * (self.v + v_target)
+        room = self.travel - copysign(ahead, ahead * v_target) if ahead else self.travel
+        fastest, slope = approach(room, _END_GAIN, a_max, j_max)
+        if abs(v_target) > fastest:
+            v_target, a_target = copysign(fastest, v_target), -slope * copysign(fastest, v_target)
+        return v_target, a_target
+
+    def _certified(self, step: Step) -> Step:
+        """The step, if the stop from where it leads stays inside the travel; else the stop certified a tick ago."""
+        low, high = Stop.plan(step.v, step.a, self._axis.acceleration, self._axis.jerk).span()
+        p = self.p + step.displacement
+        inside = -self.travel <= p + low and p + high <= self.travel
+        return step if inside else self._axis.stopping(self.v, self.a)
+
+
+class StageSmoothing:
+    """Position, velocity and acceleration of the stage (W), one tick at a time, inside its limits."""
+
+    def __init__(self, dt: float, limits: StageLimits) -> None:
+        """Start at rest in the centre; dt in s."""
+        each = zip(limits.travel, limits.speed, limits.acceleration, limits.jerk, strict=True)
+        self._axes = [RailAxis(dt, *limit) for limit in each]
+
+    def step(self, cue: Cue) -> bool:
+        """Follow the cue for one tick; whether all of it was given. Any cue is safe."""
+        each = zip(self._axes, cue.p_WS_W, cue.v_WS_W, cue.a_WS_W, strict=True)
+        met = [axis.step(p, v, a) for axis, p, v, a in each]
+        return all(met)
+
+    @property
+    def p_WS_W(self) -> Vec3:
+        """Position of the sphere centre, m, in W."""
+        x, y, z = self._axes
+        return (x.p, y.p, z.p)
+
+    @property
+    def v_WS_W(self) -> Vec3:
+        """Velocity of the sphere centre, m/s, in W."""
+        x, y, z = self._axes
+        return (x.v, y.v, z.v)
+
+    @property
+    def a_WS_W(self) -> Vec3:
+        """Acceleration of the sphere centre, m/s^2, in W."""
+        x, y, z = self._axes
+        return (x.a, y.a, z.a)

@@ -1,0 +1,93 @@
+"""The shortest jerk-limited stop, in closed form: the certificate behind every step.
+
+One axis with acceleration bound A and jerk bound J, at speed v and acceleration a. Let u = v + a|a| / 2J be the speed that
+would be left if the acceleration were brought to zero at once, and s its sign. The time-optimal way to v = a = 0 has three
+phases of constant jerk, -sJ, 0, sJ, with peak deceleration
+
+    A' = min(A, sqrt(s J v + a^2 / 2))
+
+since the first phase changes the speed by (a^2 - A'^2) / 2J and the last by A'^2 / 2J; what is left takes the middle phase.
+On its way the stop only ever meets states whose own stop is the rest of the same stop: a certified state therefore always
+has a certified successor. Phases as in L. Berscheid & T. Kroeger, "Jerk-limited Real-time Trajectory Generation with
+Arbitrary Target States", RSS 2021, velocity interface with target zero.
+"""
+
+from dataclasses import dataclass
+from math import sqrt
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """Stop from (v, a) in phases of (jerk, duration); displacements are relative to its start, m or rad."""
+
+    v: float
+    a: float
+    phases: tuple[tuple[float, float], ...]
+
+    @classmethod
+    def plan(cls, v: float, a: float, a_max: float, j_max: float) -> "Stop":
+        """Stop from speed v and acceleration a, |a| <= a_max, with jerk at most j_max."""
+        s = 1.0 if v + a * abs(a) / (2.0 * j_max) >= 0.0 else -1.0
+        v_s, a_s = s * v, s * a  # mirrored, so that the stop brakes downwards
+        peak = min(a_max, sqrt(max(j_max * v_s + 0.5 * a_s * a_s, 0.0)))
+        hold = (v_s + (0.5 * a_s * a_s - peak * peak) / j_max) / peak if peak > 0.0 else 0.0
+        jerk = s * j_max
+        return cls(v, a, ((-jerk, max(a_s + peak, 0.0) / j_max), (0.0, max(hold, 0.0)), (jerk, peak / j_max)))
+
+    @property
+    def duration(self) -> float:
+        """Time until standstill, s."""
+        return sum(duration for _, duration in self.phases)
+
+    def at(self, t: float) -> tuple[float, float, float]:
+        """Displacement, speed and acceleration at time t >= 0 into the stop; at rest from its end on."""
+        p, v, a = 0.0, self.v, self.a
+        for jerk, duration in self.phases:
+            step = min(t, duration)
+            p, v, a = _coast(p, v, a, jerk, step)
+            t -= step
+            if t <= 0.0:
+                return p, v, a
+        return p, 0.0, 0.0
+
+    def span(self) -> tuple[float, float]:
+        """Lowest and highest displacement on the way: at the start, at the end and where the speed changes its sign.
+
+        It does so at most once, in the first phase, when the acceleration is about to carry the axis backwards.
+        """
+        end = self.at(self.duration)[0]
+        jerk = self.phases[0][0]
+        if self.v * jerk <= 0.0:
+            return min(0.0, end), max(0.0, end)
+        under = max(self.a * self.a - 2.0 * jerk * self.v, 0.0)
+        turn = 2.0 * abs(self.v) / (abs(self.a) + sqrt(under))  # the earlier root of v + a t + jerk t^2 / 2
+        at_turn = _coast(0.0, self.v, self.a, jerk, turn)[0]
+        return min(0.0, end, at_turn), max(0.0, end, at_turn)
+
+
+def reachable_speed(v: float, a: float, j_max: float) -> float:
+    """Largest |v| that cannot be avoided any more from (v, a): bringing the acceleration to zero takes a|a| / 2J."""
+    return max(abs(v), abs(v + a * abs(a) / (2.0 * j_max)))
+
+
+def approach(distance: float, gain: float, a_max: float, j_max: float) -> tuple[float, float]:
+    """Speed at which to close a distance >= 0 so as to stop at its end, and the slope of that speed over the distance, 1/s.
+
+    Linear near the end, gain * distance, and never more than the speed from which the stop (from a = 0) takes the distance:
+    d = v sqrt(v / J) below v = A^2 / J, d = v/2 (v / A + A / J) above.
+    """
+    if distance <= 0.0:
+        return 0.0, gain
+    if distance < a_max**3 / j_max**2:
+        speed = (distance * distance * j_max) ** (1.0 / 3.0)
+        slope = 2.0 * speed / (3.0 * distance)
+    else:
+        half = 0.5 * a_max * a_max / j_max
+        root = sqrt(half * half + 2.0 * a_max * distance)
+        speed, slope = root - half, a_max / root
+    return (gain * distance, gain) if gain * distance <= speed else (speed, slope)
+
+
+def _coast(p: float, v: float, a: float, jerk: float, t: float) -> tuple[float, float, float]:
+    """State after t seconds of constant jerk."""
+    return p + t * (v + t * (0.5 * a + t * jerk / 6.0)), v + t * (a + 0.5 * t * jerk), a + t * jerk
