@@ -1,1 +1,20 @@
-"""Vehicle state to cue: what the platform should do, before anyone asks whether it can."""
+"""Vehicle state to cue: what the platform should do, before anyone asks whether it can.
+
+A rotation method turns the vehicle into an orientation of the sphere; the stage adds what acceleration it can.
+Nothing is ever washed out to neutral.
+"""
+
+from .cueing import Cueing, RotationMethod, build
+from .parameters import AttitudeParameters, BlendParameters, SlowTurnParameters, StageParameters
+from .turn import attitude_jump
+
+__all__ = [
+    "AttitudeParameters",
+    "BlendParameters",
+    "Cueing",
+    "RotationMethod",
+    "SlowTurnParameters",
+    "StageParameters",
+    "attitude_jump",
+    "build",
+]

@@ -1,0 +1,43 @@
+"""A rotation method and the stage, side by side."""
+
+from typing import Protocol
+
+from ..rotation import Quat, Vec3
+from ..signals import Cue, StageLimits, VehicleState
+from .attitude import AttitudeRotation
+from .blend import BlendRotation
+from .parameters import AttitudeParameters, BlendParameters, StageParameters
+from .stage import StageCueing
+
+
+class RotationMethod(Protocol):
+    """How the sphere follows the vehicle."""
+
+    def step(self, vehicle: VehicleState) -> tuple[Quat, Vec3]:
+        """Orientation q_WS and rate w_WS_W (rad/s) for this vehicle state."""
+
+
+class Cueing:
+    """Turns vehicle states into cues, at a fixed tick."""
+
+    def __init__(self, rotation: RotationMethod, stage: StageCueing) -> None:
+        """Begin at the first state."""
+        self._rotation, self._stage = rotation, stage
+
+    def step(self, vehicle: VehicleState) -> Cue:
+        """Cue for this vehicle state."""
+        q_WS, w_WS_W = self._rotation.step(vehicle)
+        return Cue(vehicle.time, q_WS, w_WS_W, *self._stage.step(q_WS, w_WS_W, vehicle.f_B))
+
+
+def build(
+    method: AttitudeParameters | BlendParameters, stage: StageParameters, limits: StageLimits, head_S: Vec3, dt: float
+) -> Cueing:
+    """Cueing by the method whose parameters are given; limits and head_S (m, S) of the platform, dt in s."""
+    rotation: RotationMethod
+    match method:
+        case AttitudeParameters():
+            rotation = AttitudeRotation(dt, method)
+        case BlendParameters():
+            rotation = BlendRotation(dt, method)
+    return Cueing(rotation, StageCueing(dt, stage, limits, head_S))

@@ -1,0 +1,95 @@
+"""What the stage should do: the onset of the acceleration that the rider's head lacks, inside the travel.
+
+A rider feels f = R_SW (a_head - g_W), so the head should have a_head = R_WS f_vehicle + g_W. For a head off the centre the
+sphere's own turning gives alpha x r + w x (w x r) of it; the rest, d, is asked of the stage. A stage of finite travel can
+give only the onset of a lasting demand:
+
+    u = d s / (s + omega_r)        p = u / (s + omega)^2        a = p''
+
+brakes with the natural frequency omega and comes back to the centre with omega_r. The demand is limited beforehand, by
+A tanh(d / A), so that no demand whatever, by the L1 norms of the filter, can drive p, v or a out of their bounds.
+"""
+
+from math import exp, pi, tanh
+
+from ..rotation import ZERO, Quat, Vec3, add, cross, flip, rotate, scale, subtract
+from ..signals import STANDARD_GRAVITY, StageLimits
+from .damping import critically_damped
+from .parameters import StageParameters
+
+_GRAVITY_W: Vec3 = (0.0, 0.0, -STANDARD_GRAVITY)
+_SHARE = 0.95  # of travel, speed and acceleration that the worst demand may use
+
+
+class OnsetFilter:
+    """One axis of the stage: demand (m/s^2) in, position, velocity and acceleration out."""
+
+    def __init__(self, dt: float, parameters: StageParameters, bound: float) -> None:
+        """`bound` is A, m/s^2; dt in s."""
+        self._dt, self._omega, self._bound = dt, parameters.onset, bound
+        self._pass = 1.0 - exp(-2.0 * pi * parameters.bandwidth * dt)
+        self._drain = 1.0 - exp(-parameters.recentre * dt)
+        self._demand = self._lasting = self._p = self._v = self._u = 0.0
+        self._started = False
+
+    def step(self, demand: float) -> tuple[float, float, float]:
+        """Position, velocity and acceleration after one tick; a demand that is there at the start counts as lasting."""
+        limited = self._bound * tanh(demand / self._bound)
+        if not self._started:
+            self._demand = self._lasting = limited
+            self._started = True
+        self._demand += self._pass * (limited - self._demand)
+        self._lasting += self._drain * (self._demand - self._lasting)
+        before, self._u = self._u, self._demand - self._lasting
+        omega = self._omega
+        rest = 0.5 * (before + self._u) / omega**2
+        self._p, self._v = critically_damped(self._p, self._v, rest, omega, self._dt)
+        return self._p, self._v, self._u - 2.0 * omega * self._v - omega**2 * self._p
+
+
+class StageCueing:
+    """Stage position, velocity and acceleration (W) from the cue's orientation and the vehicle's specific force."""
+
+    def __init__(self, dt: float, parameters: StageParameters, limits: StageLimits, head_S: Vec3) -> None:
+        """head_S: the rider's head from the sphere centre, m, frame S; dt in s."""
+        self._dt, self._gain, self._head = dt, parameters.force_gain, head_S
+        each = zip(limits.travel, limits.speed, limits.acceleration, strict=True)
+        worst = worst_response(parameters)
+        self._axes = [OnsetFilter(dt, parameters, demand_bound(worst, *limit)) for limit in each]
+        self._w_before: Vec3 | None = None
+
+    def step(self, q_WS: Quat, w_WS_W: Vec3, f_B: Vec3) -> tuple[Vec3, Vec3, Vec3]:
+        """Position (m), velocity (m/s) and acceleration (m/s^2) in W."""
+        wanted = add(rotate(q_WS, flip(f_B)), _GRAVITY_W)
+        lacking = subtract(wanted, self._turning(q_WS, w_WS_W))
+        x, y, z = (axis.step(gain * d) for axis, gain, d in zip(self._axes, self._gain, lacking, strict=True))
+        return (x[0], y[0], z[0]), (x[1], y[1], z[1]), (x[2], y[2], z[2])
+
+    def _turning(self, q_WS: Quat, w_WS_W: Vec3) -> Vec3:
+        """Acceleration of the head (W) that the sphere's turning makes."""
+        before, self._w_before = self._w_before or w_WS_W, w_WS_W
+        if self._head == ZERO:
+            return ZERO
+        r = rotate(q_WS, self._head)
+        alpha = scale(1.0 / self._dt, subtract(w_WS_W, before))
+        return add(cross(alpha, r), cross(w_WS_W, cross(w_WS_W, r)))
+
+
+def worst_response(parameters: StageParameters) -> Vec3:
+    """Largest |p|, |v| and |a| per 1 m/s^2 of demand bound, over all demands: the L1 norms of the filter's responses.
+
+    Sampled finely against the onset, over as long as the slow pole takes to forget.
+    """
+    dt = 0.02 / parameters.onset
+    onset = OnsetFilter(dt, parameters, 1e9)
+    onset.step(0.0)
+    p, v, a = (abs(x) for x in onset.step(1.0))
+    for _ in range(int(8.0 / parameters.recentre / dt)):
+        each = onset.step(0.0)
+        p, v, a = p + abs(each[0]), v + abs(each[1]), a + abs(each[2])
+    return (p, v, a)
+
+
+def demand_bound(worst: Vec3, travel: float, speed: float, acceleration: float) -> float:
+    """Largest demand (m/s^2) that keeps the filter inside travel, speed and acceleration whatever its history."""
+    return _SHARE * min(travel / worst[0], speed / worst[1], acceleration / worst[2])
