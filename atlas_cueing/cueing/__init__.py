@@ -5,8 +5,8 @@ Nothing is ever washed out to neutral.
 """
 
 from .cueing import Cueing, RotationMethod, build
+from .jumps import attitude_jump
 from .parameters import AttitudeParameters, BlendParameters, SlowTurnParameters, StageParameters
-from .turn import attitude_jump
 
 __all__ = [
     "AttitudeParameters",

@@ -2,28 +2,10 @@
 
 from math import pi
 
-from ..rotation import (
-    ZERO,
-    Quat,
-    Vec3,
-    add,
-    angle_between,
-    conjugate,
-    cross,
-    dot,
-    flip,
-    flip_rotation,
-    integrate_body,
-    multiply,
-    norm,
-    normalise,
-    rotate,
-    scale,
-    shortest_arc,
-)
+from ..rotation import ZERO, Quat, Vec3, angle_between, conjugate, cross, dot, flip, multiply, norm, rotate, scale, shortest_arc
 from ..signals import VehicleState
+from .cabin import Cabin, cabin_rate, upright
 from .parameters import BlendParameters
-from .turn import SlowTurn, level_heading, scaled
 
 _UP: Vec3 = (0.0, 0.0, 1.0)
 
@@ -39,41 +21,32 @@ class BlendRotation:
 
     def __init__(self, dt: float, parameters: BlendParameters) -> None:
         """Begin at the first state, aligned with its force; dt in s."""
-        self._dt, self._gain, self._hold = dt, parameters.rotation_gain, parameters.hold
-        self._turn = SlowTurn(dt, parameters.turn)
-        self._q_WS: Quat | None = None
-        self._w_S = ZERO
+        self._dt, self._parameters = dt, parameters
+        self._cabin: Cabin | None = None
 
     def step(self, vehicle: VehicleState) -> tuple[Quat, Vec3]:
         """Orientation q_WS and rate w_WS_W (rad/s) of the cue."""
-        w_S = scaled(self._gain, vehicle.w_NB_B)
-        if self._q_WS is None:
-            self._q_WS, self._w_S = self._aligned(vehicle), w_S
+        w_S = cabin_rate(self._parameters.rotation_gain, vehicle)
+        if self._cabin is None:
+            self._cabin = Cabin(self._dt, self._aligned(vehicle), w_S, self._parameters.turn)
         else:
-            self._q_WS = self._turned(self._q_WS, w_S, flip(vehicle.f_B))
-        return self._q_WS, rotate(self._q_WS, self._w_S)
-
-    def _turned(self, q_WS: Quat, w_S: Vec3, f_S: Vec3) -> Quat:
-        """Orientation after a tick of the vehicle's rate and the slow turn."""
-        _, w_slow = self._turn.step(self._misalignment(q_WS, f_S))
-        before, self._w_S = self._w_S, add(w_S, w_slow)
-        turn = scale(0.5 * self._dt, add(before, self._w_S))
-        return normalise(integrate_body(q_WS, turn, before, self._w_S, self._dt))
+            self._cabin.follow(w_S, self._misalignment(self._cabin.q_WS, flip(vehicle.f_B)))
+        return self._cabin.cue
 
     def _aligned(self, vehicle: VehicleState) -> Quat:
         """Vehicle attitude, turned the shortest way so that its specific force points up in W."""
-        q_WS = flip_rotation(multiply(level_heading(vehicle.q_NB), vehicle.q_NB))
+        q_WS = upright(vehicle.q_NB)
         f_W = rotate(q_WS, flip(vehicle.f_B))
-        return multiply(shortest_arc(f_W, _UP), q_WS) if norm(f_W) > self._hold else q_WS
+        return multiply(shortest_arc(f_W, _UP), q_WS) if norm(f_W) > self._parameters.hold else q_WS
 
     def _misalignment(self, q_WS: Quat, f_S: Vec3) -> Vec3:
         """Turn of the cabin (rad, S) that would bring W's up to the direction of f_S; faded out near zero force."""
         up_S = rotate(conjugate(q_WS), _UP)
-        weight = _smoothstep(norm(f_S) / self._hold - 1.0)
+        weight = _smoothstep(norm(f_S) / self._parameters.hold - 1.0)
         axis = cross(f_S, up_S)
         size = norm(axis)
         if weight == 0.0 or size <= 1e-9 * norm(f_S):
-            return (weight * pi, 0.0, 0.0) if dot(f_S, up_S) < 0.0 else ZERO
+            return (weight * pi, 0.0, 0.0) if dot(f_S, up_S) < 0.0 else ZERO  # opposite: any axis will do, roll is taken
         return scale(weight * angle_between(up_S, f_S) / size, axis)
 
 

@@ -19,8 +19,8 @@ class SlowTurnParameters:
     """
 
     rate: float = radians(3.0)
-    time: float = 2.0
-    smoothing: float = 0.5
+    time: float = 1.0
+    smoothing: float = 0.25
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,12 +28,10 @@ class AttitudeParameters:
     """Method `attitude`: the sphere takes the vehicle's attitude, for ever.
 
     rotation_gain: factor on the vehicle's turn about the cabin's x, y, z.
-    jump: a change of attitude that the body rates do not explain counts as a jump from this angle on, rad (assumed); it is
-        taken back by the slow turn and never chased.
+    turn: takes back what the body rates leave to the attitude, above all after a jump.
     """
 
     rotation_gain: Vec3 = ONES
-    jump: float = radians(0.5)
     turn: SlowTurnParameters = SlowTurnParameters()
 
 

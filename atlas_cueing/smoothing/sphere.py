@@ -37,7 +37,7 @@ from .stop import approach
 
 _GAIN = 4.0  # 1/s; a small orientation error is taken back with a time constant of 0.25 s
 _BRAKING_SHARE = 0.5  # of the wheels' acceleration and jerk, planned with on the way to a distant cue; the rest is reserve
-_MET_ANGLE = 0.1 * pi / 180.0  # rad; a larger lag than this is reported as limited
+_MET_ANGLE = 0.01 * pi / 180.0  # rad; a larger lag than this is reported as limited
 _OTHER_WAY = 0.5  # rad beyond half a turn before a catch-up under way changes over to the other way round
 
 

@@ -20,7 +20,7 @@ from .stop import Stop, approach
 _GAIN = 4.0  # 1/s; a small position error is taken back with a time constant of 0.25 s
 _END_GAIN = 10.0  # 1/s; over the last centimetres of the travel the speed falls with a time constant of 0.1 s
 _BRAKING_SHARE = 0.7  # of acceleration and jerk, planned with towards the ends of the travel and a distant cue
-_MET_DISTANCE = 1e-3  # m; a larger lag than this is reported as limited
+_MET_DISTANCE = 1e-4  # m; a larger lag than this is reported as limited
 
 
 class RailAxis:

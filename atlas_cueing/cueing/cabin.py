@@ -1,0 +1,76 @@
+"""The cabin: how it stands in W, and how it turns with the vehicle and slowly by itself."""
+
+from ..rotation import (
+    ZERO,
+    Quat,
+    Vec3,
+    add,
+    flip,
+    flip_rotation,
+    from_euler,
+    integrate_body,
+    multiply,
+    norm,
+    normalise,
+    rotate,
+    scale,
+    to_euler,
+)
+from ..signals import VehicleState
+from .damping import critically_damped
+from .parameters import SlowTurnParameters
+
+
+class SlowTurn:
+    """Rate at which the cabin takes back an error without being noticed.
+
+    The wish error / time, at most `rate` long, passes a critically damped filter in cabin axes. The filter keeps the rate
+    inside the ball of its wishes and its derivative below 2 rate / (e smoothing); both bounds hold for any error.
+    """
+
+    def __init__(self, dt: float, parameters: SlowTurnParameters) -> None:
+        """Start at rest; dt in s."""
+        self._dt, self._rate, self._time = dt, parameters.rate, parameters.time
+        self._omega = 1.0 / parameters.smoothing
+        self._w, self._alpha = ZERO, ZERO
+
+    def step(self, error: Vec3) -> Vec3:
+        """Rate after one tick (rad/s), for the rotation vector `error` (rad) still to go."""
+        size = norm(error)
+        wish = scale(min(1.0 / self._time, self._rate / size) if size > 0.0 else 0.0, error)
+        each = zip(self._w, self._alpha, wish, strict=True)
+        (x, ax), (y, ay), (z, az) = (critically_damped(w, a, to, self._omega, self._dt) for w, a, to in each)
+        self._w, self._alpha = (x, y, z), (ax, ay, az)
+        return self._w
+
+
+class Cabin:
+    """Orientation q_WS that turns with a given rate plus the slow turn; integrated, so that it can go on for ever."""
+
+    def __init__(self, dt: float, q_WS: Quat, w_S: Vec3, parameters: SlowTurnParameters) -> None:
+        """Begin in q_WS, turning with w_S (rad/s, S); dt in s."""
+        self._dt, self.q_WS, self._w_S = dt, q_WS, w_S
+        self._slow = SlowTurn(dt, parameters)
+
+    def follow(self, w_S: Vec3, error_S: Vec3) -> None:
+        """Turn for one tick with w_S (rad/s, S), and slowly by the rotation vector error_S (rad, S)."""
+        before, self._w_S = self._w_S, add(w_S, self._slow.step(error_S))
+        turn = scale(0.5 * self._dt, add(before, self._w_S))
+        self.q_WS = normalise(integrate_body(self.q_WS, turn, before, self._w_S, self._dt))
+
+    @property
+    def cue(self) -> tuple[Quat, Vec3]:
+        """Orientation q_WS and rate w_WS_W (rad/s)."""
+        return self.q_WS, rotate(self.q_WS, self._w_S)
+
+
+def upright(q_NB: Quat) -> Quat:
+    """q_WS of a cabin that stands in W as the vehicle stands in N, with W's x along the vehicle's heading."""
+    heading = to_euler(q_NB)[0]
+    return flip_rotation(multiply(from_euler(-heading, 0.0, 0.0), q_NB))
+
+
+def cabin_rate(gain: Vec3, vehicle: VehicleState) -> Vec3:
+    """The vehicle's body rates as a rate of the cabin (rad/s, S), with a gain for each cabin axis."""
+    x, y, z = flip(vehicle.w_NB_B)
+    return (gain[0] * x, gain[1] * y, gain[2] * z)
