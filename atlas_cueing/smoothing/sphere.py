@@ -11,7 +11,6 @@ of which keeps its own speed, acceleration and jerk. The turn each wheel really 
 orientation.
 """
 
-from collections.abc import Sequence
 from math import inf, pi
 
 from ..rotation import (
@@ -38,6 +37,7 @@ from .stop import approach
 _GAIN = 4.0  # 1/s; a small orientation error is taken back with a time constant of 0.25 s
 _BRAKING_SHARE = 0.5  # of the wheels' acceleration and jerk, planned with on the way to a distant cue; the rest is reserve
 _MET_ANGLE = 0.01 * pi / 180.0  # rad; a larger lag than this is reported as limited
+_NO_ANGLE = 1e-12  # rad; a smaller error has no direction worth the name
 _OTHER_WAY = 0.5  # rad beyond half a turn before a catch-up under way changes over to the other way round
 
 
@@ -49,6 +49,7 @@ class SphereSmoothing:
         self._dt = dt
         self._wheels_from_sphere, self._sphere_from_wheels = wheels_from_sphere, sphere_from_wheels
         self._axes = [Axis(dt, *limit) for limit in zip(limits.speed, limits.acceleration, limits.jerk, strict=True)]
+        self._braking, self._braking_jerk = self._reserve(limits.acceleration), self._reserve(limits.jerk)
         self._speed, self._acceleration = ZERO, ZERO
         self._left, self._w_cue = IDENTITY, ZERO
         self.q_WS, self.w_WS_W, self.alpha_WS_W = IDENTITY, ZERO, ZERO
@@ -61,16 +62,15 @@ class SphereSmoothing:
         """Follow the cue for one tick; whether the wheels gave it. Raises PlanningError and stays where it is."""
         to_go = self._to_go(cue)
         speed, acceleration = self._demand(cue, to_go)
-        steps = [
-            axis.towards(*now)
-            for axis, *now in zip(self._axes, self._speed, self._acceleration, speed, acceleration, strict=True)
-        ]
-        self._fly(steps)
-        return norm(to_go) <= _MET_ANGLE and all(step.met for step in steps)
+        now, wish = zip(self._speed, self._acceleration, strict=True), zip(speed, acceleration, strict=True)
+        x, y, z = (axis.towards(*at, *to) for axis, at, to in zip(self._axes, now, wish, strict=True))
+        self._fly(x, y, z)
+        return x.met and y.met and z.met and norm(to_go) <= _MET_ANGLE
 
     def stop(self) -> None:
         """Follow the certified stop for one tick."""
-        self._fly([axis.stopping(v, a) for axis, v, a in zip(self._axes, self._speed, self._acceleration, strict=True)])
+        x, y, z = (axis.stopping(v, a) for axis, v, a in zip(self._axes, self._speed, self._acceleration, strict=True))
+        self._fly(x, y, z)
         self._w_cue = self.w_WS_W
 
     def _to_go(self, cue: Cue) -> Vec3:
@@ -91,20 +91,14 @@ class SphereSmoothing:
     def _demand(self, cue: Cue, to_go: Vec3) -> tuple[Vec3, Vec3]:
         """Wheel speeds and accelerations asked for at the end of the tick."""
         angle = norm(to_go)
-        direction = scale(1.0 / angle, apply(self._wheels_from_sphere, to_go)) if angle > 0.0 else ZERO
-        closing, slope = approach(angle, _GAIN, *self._braking(direction))
+        direction = scale(1.0 / angle, apply(self._wheels_from_sphere, to_go)) if angle > _NO_ANGLE else ZERO
+        closing, slope = approach(angle, _GAIN, self._braking, self._braking_jerk)
         speed = apply(self._wheels_from_sphere, cue.w_WS_W)
         acceleration = apply(self._wheels_from_sphere, scale(1.0 / self._dt, subtract(cue.w_WS_W, self._w_cue)))
         self._w_cue = cue.w_WS_W
         spare = self._spare(speed, direction)
         closing, slope = (closing, slope) if closing < spare else (spare, 0.0)
         return add(speed, scale(closing, direction)), subtract(acceleration, scale(slope * closing, direction))
-
-    def _braking(self, direction: Vec3) -> tuple[float, float]:
-        """Angular acceleration and jerk for a catch-up along the turn that moves the wheels by `direction` per rad."""
-        acceleration = min((a.acceleration / abs(d) for a, d in zip(self._axes, direction, strict=True) if d), default=1.0)
-        jerk = min((a.jerk / abs(d) for a, d in zip(self._axes, direction, strict=True) if d), default=1.0)
-        return _BRAKING_SHARE * acceleration, _BRAKING_SHARE * jerk
 
     def _spare(self, wheels: Vec3, direction: Vec3) -> float:
         """Largest closing rate (rad/s) that keeps each wheel, busy with the cue already, inside its speed."""
@@ -114,14 +108,18 @@ class SphereSmoothing:
                 spare = min(spare, max(axis.speed - (busy if d > 0.0 else -busy), 0.0) / abs(d))
         return spare
 
-    def _fly(self, steps: Sequence[Step]) -> None:
+    def _fly(self, x: Step, y: Step, z: Step) -> None:
         """Take the steps of the three wheels and integrate the orientation from them (Eq. 16, 19, 20).
 
         The one place where the orientation is renormalised.
         """
-        turns, speeds, accelerations = zip(*((s.displacement, s.v, s.a) for s in steps), strict=True)
-        w0, self.w_WS_W = self.w_WS_W, apply(self._sphere_from_wheels, speeds)
-        q = integrate_base(self.q_WS, apply(self._sphere_from_wheels, turns), w0, self.w_WS_W, self._dt)
-        self.q_WS = normalise(q)
-        self._speed, self._acceleration = speeds, accelerations
-        self.alpha_WS_W = apply(self._sphere_from_wheels, accelerations)
+        turn = apply(self._sphere_from_wheels, (x.displacement, y.displacement, z.displacement))
+        self._speed, self._acceleration = (x.v, y.v, z.v), (x.a, y.a, z.a)
+        w0, self.w_WS_W = self.w_WS_W, apply(self._sphere_from_wheels, self._speed)
+        self.alpha_WS_W = apply(self._sphere_from_wheels, self._acceleration)
+        self.q_WS = normalise(integrate_base(self.q_WS, turn, w0, self.w_WS_W, self._dt))
+
+    def _reserve(self, limit: Vec3) -> float:
+        """What the wheels' limits leave of angular acceleration or jerk about any axis, to plan a catch-up with."""
+        rows = (norm(row) for row in self._wheels_from_sphere)
+        return _BRAKING_SHARE * min(each / row for each, row in zip(limit, rows, strict=True))

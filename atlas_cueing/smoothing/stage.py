@@ -15,7 +15,7 @@ from ..errors import PlanningError
 from ..rotation import Vec3
 from ..signals import Cue, StageLimits
 from .axis import Axis, Step
-from .stop import Stop, approach
+from .stop import Stop, approach, stop_bound
 
 _GAIN = 4.0  # 1/s; a small position error is taken back with a time constant of 0.25 s
 _END_GAIN = 10.0  # 1/s; over the last centimetres of the travel the speed falls with a time constant of 0.1 s
@@ -60,8 +60,10 @@ class RailAxis:
 
     def _certified(self, step: Step) -> Step:
         """The step, if the stop from where it leads stays inside the travel; else the stop certified a tick ago."""
-        low, high = Stop.plan(step.v, step.a, self._axis.acceleration, self._axis.jerk).span()
         p = self.p + step.displacement
+        if abs(p) + stop_bound(step.v, step.a, self._axis.acceleration, self._axis.jerk) <= self.travel:
+            return step
+        low, high = Stop.plan(step.v, step.a, self._axis.acceleration, self._axis.jerk).span()
         inside = -self.travel <= p + low and p + high <= self.travel
         return step if inside else self._axis.stopping(self.v, self.a)
 

@@ -65,9 +65,14 @@ class Stop:
         return min(0.0, end, at_turn), max(0.0, end, at_turn)
 
 
-def reachable_speed(v: float, a: float, j_max: float) -> float:
-    """Largest |v| that cannot be avoided any more from (v, a): bringing the acceleration to zero takes a|a| / 2J."""
-    return max(abs(v), abs(v + a * abs(a) / (2.0 * j_max)))
+def stop_bound(v: float, a: float, a_max: float, j_max: float) -> float:
+    """No stop from (v, a) spans more than this to either side: a cheap bound that settles most certificates.
+
+    Bringing a to zero takes |a| / J at no more than u = |v| + a^2 / 2J; from a = 0 a stop takes u sqrt(u / J) or
+    u/2 (u / A + A / J), and the latter is never less.
+    """
+    u = abs(v) + a * a / (2.0 * j_max)
+    return u * (abs(a) / j_max + 0.5 * (u / a_max + a_max / j_max))
 
 
 def approach(distance: float, gain: float, a_max: float, j_max: float) -> tuple[float, float]:
