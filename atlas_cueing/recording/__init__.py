@@ -1,1 +1,7 @@
-""""""
+"""The MCAP log: written tick by tick, read back as columns."""
+
+from .log import Log, Status, Table
+from .reader import read_log
+from .recorder import RUN_METADATA, McapRecorder
+
+__all__ = ["RUN_METADATA", "Log", "McapRecorder", "Status", "Table", "read_log"]

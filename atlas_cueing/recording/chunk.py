@@ -1,0 +1,120 @@
+"""From a block of ticks to the bytes and the index of one MCAP chunk, without a loop over messages."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..rotation import Vec3
+from ..signals import TOPICS, direction_error, felt
+from .schemas import TF
+from .transforms import RATE_HZ, put_transforms, transform_template
+from .wire import Array, Records, Times, flat_dtype, flat_template, log_times, put, repeat
+
+_STARTS = np.cumsum([0] + [len(topic.fields) for topic in TOPICS])  # of each topic in a row; /felt comes last
+ROW = int(_STARTS[-2])  # numbers in a row of `signals.tick_row`
+_VEHICLE_F = slice(8, 11)
+_MOTION = int(_STARTS[2])  # then time, q, w, alpha, p, v, a
+_Q, _W, _ALPHA, _P, _A = (slice(_MOTION + start, _MOTION + end) for start, end in ((1, 5), (5, 8), (8, 11), (11, 14), (17, 20)))
+
+
+@dataclass(frozen=True, slots=True)
+class Extra:
+    """A message that does not come every tick: it stands after the first `ticks` ticks of its chunk."""
+
+    ticks: int
+    channel: int
+    log_time: int
+    record: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class EncodedChunk:
+    """Message records of a chunk, and log time and offset (n, 2) of each message by channel."""
+
+    data: bytes
+    index: dict[int, NDArray[np.uint64]]
+
+
+class ChunkEncoder:
+    """Encodes blocks of ticks; `channels` names the topics to write and their ids, the others are left out."""
+
+    def __init__(self, head_S: Vec3, channels: Mapping[str, int]) -> None:
+        self._head_S = head_S
+        self._tf_channel = channels.get(TF)
+        self._tf_template = transform_template(channels.get(TF, 0))
+        self._tf_slot = -1.0
+        self._columns = {
+            t.name: slice(a, b) for t, a, b in zip(TOPICS, _STARTS, _STARTS[1:], strict=False) if t.name in channels
+        }
+        self._channels = channels
+        sizes = {t.name: len(t.fields) for t in TOPICS if t.name in channels}
+        self._template = np.zeros((), np.dtype([(name, flat_dtype(size)) for name, size in sizes.items()]))
+        self._offsets: dict[str, int] = {}  # of each message in a tick
+        offset = 0
+        for name, size in sizes.items():
+            self._template[name] = flat_template(channels[name], size)
+            self._offsets[name] = offset
+            offset += flat_dtype(size).itemsize
+
+    def encode(self, rows: Array, statuses: Sequence[Extra]) -> EncodedChunk:
+        """Chunk of rows (n, ROW) of `signals.tick_row`, in order of time, with /felt and /tf made from them."""
+        times = log_times(rows[:, 0])
+        ticks = self._encode_ticks(rows, times)
+        extras = sorted([*self._transforms(rows, times), *statuses], key=lambda extra: (extra.ticks, extra.log_time))
+        return EncodedChunk(_merge(ticks, extras), self._index(ticks, times, extras))
+
+    def _encode_ticks(self, rows: Array, times: Times) -> Records:
+        """One structured record a tick with all its messages."""
+        ticks = repeat(self._template, len(rows))
+        full = np.hstack([rows, felt_columns(rows, self._head_S)]) if "/felt" in self._columns else rows
+        for name, columns in self._columns.items():
+            ticks[name]["log_time"] = ticks[name]["publish_time"] = times
+            put(ticks[name], full[:, columns])
+        return ticks
+
+    def _transforms(self, rows: Array, times: Times) -> list[Extra]:
+        """A /tf message after each tick that is the first one in its sixtieth of a second."""
+        if self._tf_channel is None or not len(rows):
+            return []
+        slots = np.floor(rows[:, 0] * RATE_HZ + 1e-6)  # a tick due at k/60 s may be a rounding error early
+        due = np.flatnonzero(np.diff(slots, prepend=self._tf_slot))
+        self._tf_slot = float(slots[-1])
+        records = repeat(self._tf_template, len(due))
+        put_transforms(records, times[due], rows[due, _Q], rows[due, _P])
+        log_time, ticks = times[due].tolist(), (due + 1).tolist()
+        return [Extra(ticks[k], self._tf_channel, log_time[k], records[k].tobytes()) for k in range(len(due))]
+
+    def _index(self, ticks: Records, times: Times, extras: list[Extra]) -> dict[int, NDArray[np.uint64]]:
+        """Where each message starts: a tick is pushed back by the extra messages before it, and the other way round."""
+        sizes = np.cumsum([0] + [len(extra.record) for extra in extras])
+        before = np.array([extra.ticks for extra in extras], dtype=np.int64)
+        bases = np.arange(len(ticks)) * ticks.itemsize + sizes[np.searchsorted(before, np.arange(len(ticks)), side="right")]
+        index = {}
+        for name, offset in self._offsets.items() if len(ticks) else ():
+            index[self._channels[name]] = np.stack([times, (bases + offset).astype(np.uint64)], axis=1)
+        for channel in sorted({extra.channel for extra in extras}):
+            mine = [k for k, extra in enumerate(extras) if extra.channel == channel]
+            starts = before[mine] * ticks.itemsize + sizes[mine]
+            log_time = np.array([extras[k].log_time for k in mine], dtype=np.uint64)
+            index[channel] = np.stack([log_time, starts.astype(np.uint64)], axis=1)
+        return index
+
+
+def felt_columns(rows: Array, head_S: Vec3) -> Array:
+    """The fields of /felt (n, 8) from rows (n, ROW): time, force, rate, direction error."""
+    with np.errstate(all="ignore"):  # a number that overflowed upstream is recorded as it is
+        f, w = felt(rows[:, _Q], rows[:, _W], rows[:, _ALPHA], rows[:, _A], head_S)
+        error = direction_error(rows[:, _VEHICLE_F], f)
+    return np.column_stack([rows[:, _MOTION], f, w, error])
+
+
+def _merge(ticks: Records, extras: list[Extra]) -> bytes:
+    """The ticks' bytes with each extra record at its place."""
+    data, pieces, start = ticks.tobytes(), [], 0
+    for extra in extras:
+        end = extra.ticks * ticks.itemsize
+        pieces += [data[start:end], extra.record]
+        start = end
+    return b"".join([*pieces, data[start:]])

@@ -1,0 +1,166 @@
+"""The MCAP container: header, schemas, channels, attachments, chunks with their indexes, and the summary.
+
+Record layouts are mcap's own (https://mcap.dev/spec); the order of the records is ours: schemas, channels and attachments
+first, so that whatever survives of a broken log can be read.
+"""
+
+import struct
+import zlib
+from collections.abc import Callable, Iterable, Mapping
+
+import zstandard
+from mcap.data_stream import RecordBuilder
+from mcap.opcode import Opcode
+from mcap.records import (
+    Attachment,
+    AttachmentIndex,
+    Channel,
+    Chunk,
+    ChunkIndex,
+    DataEnd,
+    Footer,
+    Header,
+    McapRecord,
+    Metadata,
+    MetadataIndex,
+    Schema,
+    Statistics,
+    SummaryOffset,
+)
+
+from .chunk import EncodedChunk
+from .wire import EPOCH_NS
+
+MAGIC = b"\x89MCAP0\r\n"
+LIBRARY = "atlas_cueing"
+ZSTD_LEVEL = 1
+
+
+class Container:
+    """Writes an MCAP file from its first byte to its last through `write`, which keeps all bytes it is given or raises."""
+
+    def __init__(self, write: Callable[[bytes], object]) -> None:
+        self._write = write
+        self._position = 0
+        self._crc = 0
+        self._compressor = zstandard.ZstdCompressor(level=ZSTD_LEVEL)
+        self._schemas: list[Schema] = []
+        self._channels: list[Channel] = []
+        self._attachments: list[AttachmentIndex] = []
+        self._metadata: list[MetadataIndex] = []
+        self._chunks: list[ChunkIndex] = []
+        self._counts: dict[int, int] = {}
+        self._put(MAGIC)
+        self._record(Header(profile="", library=LIBRARY))
+
+    def add_channel(self, topic: str, name: str, schema: bytes) -> int:
+        """Id of a new channel of protobuf messages `name`, described by a FileDescriptorSet."""
+        number = len(self._channels) + 1
+        self._schemas.append(Schema(id=number, data=schema, encoding="protobuf", name=name))
+        self._channels.append(Channel(id=number, topic=topic, message_encoding="protobuf", metadata={}, schema_id=number))
+        self._record(self._schemas[-1])
+        self._record(self._channels[-1])
+        return number
+
+    def add_attachment(self, name: str, media_type: str, data: bytes) -> None:
+        """Keep a file inside the log."""
+        record = Attachment(create_time=EPOCH_NS, log_time=EPOCH_NS, name=name, media_type=media_type, data=data)
+        offset, length = self._record(record)
+        self._attachments.append(AttachmentIndex(offset, length, EPOCH_NS, EPOCH_NS, len(data), name, media_type))
+
+    def add_metadata(self, name: str, pairs: Mapping[str, str]) -> None:
+        """Keep a map from string to string."""
+        offset, length = self._record(Metadata(name=name, metadata=dict(pairs)))
+        self._metadata.append(MetadataIndex(offset, length, name))
+
+    def add_chunk(self, chunk: EncodedChunk) -> None:
+        """Write a chunk and the index of its messages, in one go."""
+        times = [index[:, 0] for index in chunk.index.values()]
+        first, last = min(int(t.min()) for t in times), max(int(t.max()) for t in times)
+        packed = self._compressor.compress(chunk.data)
+        size = len(chunk.data)
+        data = _serialise(Chunk("zstd", packed, last, first, zlib.crc32(chunk.data), size))
+        length, offsets = len(data), {}
+        for channel, index in chunk.index.items():
+            offsets[channel] = self._position + len(data)
+            data += _message_index(channel, index.astype("<u8").tobytes())
+            self._counts[channel] = self._counts.get(channel, 0) + len(index)
+        self._chunks.append(
+            ChunkIndex(
+                chunk_length=length,
+                chunk_start_offset=self._position,
+                compression="zstd",
+                compressed_size=len(packed),
+                message_end_time=last,
+                message_index_length=len(data) - length,
+                message_index_offsets=offsets,
+                message_start_time=first,
+                uncompressed_size=size,
+            )
+        )
+        self._put(data)
+
+    def finish(self) -> None:
+        """Write the end of the data, the summary with its checksums, and the footer."""
+        self._record(DataEnd(self._crc))
+        start = self._position
+        self._crc = 0
+        offsets = [self._group(op, records) for op, records in self._summary() if records]
+        offset_start = self._position
+        for offset in offsets:
+            self._record(offset)
+        # the summary's checksum covers the footer up to the checksum itself
+        unchecked = _serialise(Footer(start, offset_start, 0))[:-4]
+        self._record(Footer(start, offset_start, zlib.crc32(unchecked, self._crc)))
+        self._put(MAGIC)
+
+    def _summary(self) -> Iterable[tuple[Opcode, list[McapRecord]]]:
+        """Groups of the summary, in order."""
+        yield Opcode.SCHEMA, [*self._schemas]
+        yield Opcode.CHANNEL, [*self._channels]
+        yield Opcode.STATISTICS, [self._statistics()]
+        yield Opcode.CHUNK_INDEX, [*self._chunks]
+        yield Opcode.ATTACHMENT_INDEX, [*self._attachments]
+        yield Opcode.METADATA_INDEX, [*self._metadata]
+
+    def _statistics(self) -> Statistics:
+        return Statistics(
+            attachment_count=len(self._attachments),
+            channel_count=len(self._channels),
+            channel_message_counts=dict(sorted(self._counts.items())),
+            chunk_count=len(self._chunks),
+            message_count=sum(self._counts.values()),
+            message_end_time=max((chunk.message_end_time for chunk in self._chunks), default=0),
+            message_start_time=min((chunk.message_start_time for chunk in self._chunks), default=0),
+            metadata_count=len(self._metadata),
+            schema_count=len(self._schemas),
+        )
+
+    def _group(self, opcode: Opcode, records: list[McapRecord]) -> SummaryOffset:
+        start = self._position
+        for record in records:
+            self._record(record)
+        return SummaryOffset(opcode, start, self._position - start)
+
+    def _record(self, record: McapRecord) -> tuple[int, int]:
+        """Write one record; its offset and length."""
+        data = _serialise(record)
+        offset = self._position
+        self._put(data)
+        return offset, len(data)
+
+    def _put(self, data: bytes) -> None:
+        self._write(data)
+        self._position += len(data)
+        self._crc = zlib.crc32(data, self._crc)
+
+
+def _serialise(record: McapRecord) -> bytes:
+    builder = RecordBuilder()
+    record.write(builder)
+    return bytes(builder.end())  # type: ignore[no-untyped-call]  # mcap gives types to all but this one
+
+
+def _message_index(channel: int, entries: bytes) -> bytes:
+    """As mcap.records.MessageIndex, for entries (log time, offset) that are bytes already."""
+    return struct.pack("<BQHI", Opcode.MESSAGE_INDEX, 6 + len(entries), channel, len(entries)) + entries

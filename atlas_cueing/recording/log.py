@@ -1,0 +1,74 @@
+"""A log in memory: columns of doubles by topic and field."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import LogError
+from .wire import Array
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """All messages of a topic: `values` (n, fields) in the order of the log."""
+
+    fields: tuple[str, ...]
+    values: Array
+
+
+@dataclass(frozen=True, slots=True)
+class Status:
+    """A change of state at `time` (s)."""
+
+    time: float
+    state: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class Log:
+    """A complete log of one run.
+
+    `tables` has one Table a topic of doubles, `metadata` is the record `atlas.run`, `attachments` are files by name.
+    """
+
+    path: Path
+    tables: Mapping[str, Table]
+    metadata: Mapping[str, str]
+    attachments: Mapping[str, bytes]
+    statuses: tuple[Status, ...]
+
+    def column(self, topic: str, field: str) -> Array:
+        """One field over the whole run, (n,), in the unit of its name. Raises LogError if the log does not have it."""
+        table = self._table(topic)
+        if field not in table.fields:
+            raise LogError(f"{self.path}: {topic} has no field {field!r}; fields: {', '.join(table.fields)}")
+        return table.values[:, table.fields.index(field)]
+
+    def vector(self, topic: str, name: str) -> Array:
+        """A vector or quaternion over the whole run: the fields that `name` and an axis, component or wheel number begin.
+
+        `q_ws` gives (n, 4); `w` gives (n, 3), in the frame and unit of the topic. Raises LogError if the log does not have it.
+        """
+        table = self._table(topic)
+        pattern = re.compile(re.escape(name) + r"(_[wxyz]|[xyz123]_\w+)")
+        columns = [i for i, field in enumerate(table.fields) if pattern.fullmatch(field)]
+        if not columns:
+            raise LogError(f"{self.path}: {topic} has no vector {name!r}; fields: {', '.join(table.fields)}")
+        return table.values[:, columns[0] : columns[-1] + 1]
+
+    def _table(self, topic: str) -> Table:
+        if topic not in self.tables:
+            raise LogError(f"{self.path}: the log has no topic {topic!r}; topics: {', '.join(self.tables)}")
+        return self.tables[topic]
+
+
+def table_of(fields: tuple[str, ...], pieces: list[Array]) -> Table:
+    """A table from the pieces of its chunks, which are let go of."""
+    values = np.concatenate(pieces) if pieces else np.empty((0, len(fields)))
+    pieces.clear()
+    values.flags.writeable = False
+    return Table(fields, values)

@@ -1,0 +1,135 @@
+"""Reads a complete log back as columns, whole chunks at a time."""
+
+import struct
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from google.protobuf.message import DecodeError
+from mcap.exceptions import McapError
+from mcap.records import Attachment, Channel, Chunk, DataEnd, McapRecord, Metadata, Schema
+from numpy.typing import NDArray
+
+from ..errors import LogError
+from .log import Log, Status, Table, table_of
+from .recorder import RUN_METADATA
+from .records import RecordReader, unpack
+from .schemas import STATUS, flat_fields, message_class
+from .wire import MESSAGE_OPCODE, RECORD_HEAD, Array, flat_dtype, take
+
+MAX_LOG = 4 * 2**30  # bytes of messages unpacked; over an hour at 1 kHz
+_HEAD = 22 + RECORD_HEAD  # bytes before the body of a message record
+_boundary = struct.Struct("<BQH").unpack_from  # opcode, length, channel
+
+
+def read_log(path: Path, max_bytes: int = MAX_LOG) -> Log:
+    """Read a complete log of ours into memory.
+
+    Args:
+        path: a log as `McapRecorder` writes it; topics and fields may have been added.
+        max_bytes: bound on the unpacked messages; about half of it is kept in memory.
+
+    Raises:
+        LogError: the file cannot be read, is cut or damaged (every checksum is checked), or is not a log of ours.
+    """
+    try:
+        with path.open("rb") as stream:
+            content = _Content(max_bytes)
+            for record in RecordReader(stream).records():
+                content.add(record)
+            return content.log(path)
+    except LogError as error:
+        raise LogError(f"{path}: {error}") from error
+    except OSError as error:
+        raise LogError(f"{path}: cannot be read: {error.strerror}") from error
+    except (McapError, DecodeError, struct.error, ValueError, KeyError, TypeError, AttributeError, OverflowError) as error:
+        evidence = " ".join(str(error).split()) or type(error).__name__  # protobuf's may have several lines
+        raise LogError(f"{path}: the log is damaged: {evidence}") from error
+
+
+class _Content:
+    """What has been found in a log so far."""
+
+    def __init__(self, max_bytes: int) -> None:
+        self._left = max_bytes
+        self._schemas: dict[int, Schema] = {}
+        self._channels: dict[int, Channel] = {}
+        self._fields: dict[int, tuple[str, ...]] = {}  # of the channels with flat messages
+        self._pieces: dict[int, list[Array]] = {}
+        self._status_class: dict[int, Any] = {}
+        self._statuses: list[Status] = []
+        self._metadata: dict[str, dict[str, str]] = {}
+        self._attachments: dict[str, bytes] = {}
+
+    def add(self, record: McapRecord) -> None:
+        """Take in one record of the data section; the summary repeats what is known."""
+        match record:
+            case Schema():
+                self._schemas[record.id] = record
+            case Channel() if record.id not in self._channels:
+                self._add_channel(record)
+            case Chunk():
+                self._add_chunk(record)
+            case Attachment():
+                self._attachments[record.name] = record.data
+            case Metadata():
+                self._metadata[record.name] = record.metadata
+            case DataEnd() if RUN_METADATA not in self._metadata:
+                raise LogError(f"this is no log of atlas_cueing: it has no metadata record {RUN_METADATA!r}")
+
+    def log(self, path: Path) -> Log:
+        """All of it."""
+        tables: dict[str, Table] = {}
+        for channel, fields in self._fields.items():
+            tables[self._channels[channel].topic] = table_of(fields, self._pieces[channel])
+        return Log(path, tables, self._metadata[RUN_METADATA], self._attachments, tuple(self._statuses))
+
+    def _add_channel(self, channel: Channel) -> None:
+        self._channels[channel.id] = channel
+        schema = self._schemas.get(channel.schema_id)
+        if schema is None or schema.encoding != "protobuf":
+            return
+        if channel.topic == STATUS:
+            self._status_class[channel.id] = message_class(schema.name, schema.data)
+        elif (fields := flat_fields(schema.name, schema.data)) is not None:
+            self._fields[channel.id], self._pieces[channel.id] = fields, []
+
+    def _add_chunk(self, chunk: Chunk) -> None:
+        """Messages of a chunk: flat ones by numpy, changes of state one by one, others skipped."""
+        self._left -= chunk.uncompressed_size
+        if self._left < 0:
+            raise LogError("the messages of the log are larger than allowed")
+        data = unpack(chunk)
+        for channel, starts in _message_starts(data).items():
+            if channel in self._fields:
+                self._pieces[channel].append(self._flat(channel, data, np.array(starts)))
+            for start in starts if channel in self._status_class else ():
+                end = start + RECORD_HEAD + _boundary(data, start)[1]
+                message = self._status_class[channel].FromString(data[start + _HEAD : end])
+                self._statuses.append(Status(message.time_s, message.state, message.reason))
+
+    def _flat(self, channel: int, data: bytes, starts: NDArray[np.int64]) -> Array:
+        """Values (n, fields) of the messages of a channel at `starts`, after a look at every tag and length."""
+        fields = self._fields[channel]
+        dtype = flat_dtype(len(fields))
+        if starts[-1] + dtype.itemsize <= len(data):
+            windows = np.lib.stride_tricks.sliding_window_view(np.frombuffer(data, np.uint8), dtype.itemsize)
+            records = windows[starts].view(dtype)[:, 0]
+            values = take(records, len(fields))
+            if values is not None and np.all(records["length"] == dtype.itemsize - RECORD_HEAD):
+                return values
+        raise LogError(f"a message of {self._channels[channel].topic} is not {len(fields)} doubles")
+
+
+def _message_starts(data: bytes) -> dict[int, list[int]]:
+    """Offset of every message in a chunk, by channel."""
+    starts: dict[int, list[int]] = {}
+    position, end = 0, len(data)
+    while position < end:
+        opcode, length, channel = _boundary(data, position)
+        if opcode == MESSAGE_OPCODE:
+            starts.setdefault(channel, []).append(position)
+        position += RECORD_HEAD + length
+    if position != end:
+        raise LogError("the last message of a chunk is cut")
+    return starts

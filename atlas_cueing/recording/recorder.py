@@ -1,0 +1,186 @@
+"""Ticks into an MCAP log, byte for byte the same for the same run."""
+
+import os
+from collections.abc import Collection, Mapping
+from pathlib import Path
+from struct import Struct
+
+import numpy as np
+
+from ..errors import OutputError
+from ..rotation import Vec3
+from ..signals import TOPICS, Tick, tick_row
+from .chunk import ROW, ChunkEncoder, Extra
+from .container import Container
+from .schemas import STATUS, STATUS_SCHEMA, TF, message_class, schema_of, status_schema
+from .wire import LATEST_S, Array, log_times, record_template
+
+RUN_METADATA = "atlas.run"
+MAX_CHUNK_TICKS = 16384  # 16 MB of messages: well inside what the reader will unpack
+_NAMES = (*(topic.name for topic in TOPICS), STATUS, TF)
+_BEFORE_START = -1.0  # s; no tick yet
+_pack = Struct(f"{ROW}d").pack
+
+
+class McapRecorder:
+    """A Sink that writes an MCAP log.
+
+    It is written as `path`.part, chunk by chunk, and takes its name when it is complete; a recorder that is dropped leaves
+    the .part with all chunks up to then. Whether an existing log may be replaced is for the caller to decide.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        *,
+        head_S: Vec3,
+        metadata: Mapping[str, str],
+        attachments: Mapping[str, bytes],
+        chunk_ticks: int = 512,
+        skip_topics: Collection[str] = (),
+    ) -> None:
+        """Open the log.
+
+        Args:
+            path: where the complete log will be.
+            head_S: the rider's head from the sphere centre, m, frame S; /felt is computed there.
+            metadata: the record `atlas.run`, to which result and reason are added at the end.
+            attachments: TOML files by name.
+            chunk_ticks: ticks a chunk; what a killed process loses at most.
+            skip_topics: topics left out.
+
+        Raises:
+            OutputError: the file cannot be written, a topic is unknown or a chunk too large or empty.
+        """
+        self._file = -1
+        _check_options(chunk_ticks, skip_topics)
+        self._path = path
+        self._head_S = head_S
+        self._part = path.with_name(path.name + ".part")
+        self._metadata = dict(metadata)
+        self._rows = bytearray()
+        self._full = chunk_ticks * ROW * 8  # bytes of rows that make a chunk
+        self._statuses: list[tuple[float, bytes]] = []
+        self._latest = _BEFORE_START  # s; time of the last tick written
+        self._failure = ""
+        try:
+            self._file = os.open(self._part, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o666)
+            self._container = Container(self._write)
+            self._start(attachments, skip_topics)
+        except OSError as error:
+            raise self._fail(error) from error
+
+    def append(self, tick: Tick) -> None:
+        """Keep one tick. Raises OutputError when this or any earlier chunk could not be written."""
+        self._rows += _pack(*tick_row(tick))
+        if len(self._rows) >= self._full:
+            self._flush()
+
+    def status(self, time: float, state: str, reason: str) -> None:
+        """Keep a change of state at `time` (s); it stands after the ticks up to that time."""
+        self._refuse_after_failure()
+        self._check_time(STATUS, np.array([time]), _BEFORE_START)
+        self._statuses.append((time, self._status_class(time_s=time, state=state, reason=reason).SerializeToString()))
+
+    def close(self, result: str, reason: str) -> None:
+        """Write what is left, add result and reason to the metadata, and give the log its name.
+
+        Raises OutputError when anything could not be written; the log then stays a .part.
+        """
+        self._flush()
+        try:
+            self._container.add_metadata(RUN_METADATA, {**self._metadata, "result": result, "reason": reason})
+            self._container.finish()
+            os.fsync(self._file)  # or a power cut could leave the name without its bytes
+            self._release()
+            os.replace(self._part, self._path)
+            self._stop("the recorder is closed")
+        except OSError as error:
+            raise self._fail(error) from error
+
+    def abandon(self) -> None:
+        """Let go of the file as it is: an unfinished log stays a .part with its complete chunks. Harmless after `close`."""
+        self._stop("the recorder is closed")
+        self._release()
+
+    def __del__(self) -> None:
+        self._release()
+
+    def _release(self) -> None:
+        file, self._file = self._file, -1
+        if file >= 0:
+            os.close(file)
+
+    def _start(self, attachments: Mapping[str, bytes], skip: Collection[str]) -> None:
+        """Write what comes before the first tick."""
+        names = [name for name in _NAMES if name not in skip]
+        self._channels = {name: self._container.add_channel(name, *schema_of(name)) for name in names}
+        for name, data in attachments.items():
+            self._container.add_attachment(name, "application/toml", data)
+        self._status_class = message_class(STATUS_SCHEMA, status_schema())
+        self._encoder = ChunkEncoder(self._head_S, self._channels)
+
+    def _flush(self) -> None:
+        """Write the ticks and states kept so far as one chunk."""
+        self._refuse_after_failure()
+        rows, self._rows = np.frombuffer(self._rows).reshape(-1, ROW), bytearray()
+        self._check_time("tick", rows[:, 0], self._latest)
+        self._latest = float(rows[-1, 0]) if len(rows) else self._latest
+        chunk = self._encoder.encode(rows, self._status_records(rows[:, 0]))
+        self._statuses = []
+        try:
+            if chunk.data:
+                self._container.add_chunk(chunk)
+        except OSError as error:
+            raise self._fail(error) from error
+
+    def _status_records(self, times: Array) -> list[Extra]:
+        """The changes of state of this chunk, each after the ticks up to its time."""
+        if STATUS not in self._channels:
+            return []
+        channel, records = self._channels[STATUS], []
+        for time, body in self._statuses:
+            log_time = int(log_times(np.array([time]))[0])
+            ticks = int(np.searchsorted(times, time, side="right"))
+            records.append(Extra(ticks, channel, log_time, record_template(channel, body, log_time)))
+        return records
+
+    def _check_time(self, what: str, times: Array, later_than: float) -> None:
+        """Refuse times that a log cannot hold (a NaN would become a date), and ticks that do not come one after the other."""
+        good = (times >= 0.0) & (times <= LATEST_S) & (np.diff(times, prepend=later_than) > 0.0)
+        if not good.all():
+            wrong = int(np.argmin(good))
+            before = [later_than, *times][wrong]
+            order = f", after {before:.9g}" if before >= 0.0 else ""
+            self._stop(f"{what} at time_s = {times[wrong]:.9g}, allowed: 0 <= time_s <= {LATEST_S:.0e}{order}")
+            self._refuse_after_failure()
+
+    def _write(self, data: bytes) -> None:
+        """All of data to the file, or OSError: a full disk first takes a part of it."""
+        view = memoryview(data)
+        while view:
+            view = view[os.write(self._file, view) :]
+
+    def _fail(self, error: OSError) -> OutputError:
+        """Latch the first error: after a full disk later writes may succeed and leave a hole."""
+        self._stop(error.strerror or str(error))
+        return OutputError(self._failure)
+
+    def _stop(self, reason: str) -> None:
+        self._failure = self._failure or f"cannot write log {self._path}: {reason}"
+        self._full = 0  # makes the next `append` come and see
+
+    def _refuse_after_failure(self) -> None:
+        if self._failure:
+            self._rows.clear()
+            raise OutputError(self._failure)
+
+
+def _check_options(chunk_ticks: int, skip_topics: Collection[str]) -> None:
+    if not 1 <= chunk_ticks <= MAX_CHUNK_TICKS:
+        raise OutputError(f"chunk_ticks = {chunk_ticks}, allowed: 1 <= chunk_ticks <= {MAX_CHUNK_TICKS}")
+    for name in skip_topics:
+        if name not in _NAMES:
+            raise OutputError(f"skip_topics: {name!r} is no topic of the log; topics: {', '.join(_NAMES)}")
+    if all(topic.name in skip_topics for topic in TOPICS):
+        raise OutputError("skip_topics leaves nothing to record")

@@ -1,0 +1,96 @@
+"""Protobuf schemas of the log, built at run time from the table in `signals.topics`.
+
+A schema record of an MCAP file holds a serialised FileDescriptorSet with the message type and everything it imports
+(https://mcap.dev/spec/registry#protobuf), so that any reader can decode the messages without our sources.
+"""
+
+from typing import Any
+
+from google.protobuf import descriptor_pool, message_factory, timestamp_pb2
+from google.protobuf.descriptor_pb2 import FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet
+
+from ..signals import TOPICS, Topic
+
+STATUS = "/status"
+TF = "/tf"
+STATUS_SCHEMA = "atlas.Status"
+TF_SCHEMA = "foxglove.FrameTransforms"
+_STAMP = "google/protobuf/timestamp.proto"
+
+
+def flat_schema(topic: Topic) -> bytes:
+    """FileDescriptorSet of a message of doubles, field i of the table having number i + 1."""
+    return _bundle(_file(topic.schema, [(name, "double") for name in topic.fields]))
+
+
+def status_schema() -> bytes:
+    """FileDescriptorSet of atlas.Status: time_s (double), state and reason (strings)."""
+    return _bundle(_file(STATUS_SCHEMA, [("time_s", "double"), ("state", "string"), ("reason", "string")]))
+
+
+def transforms_schema() -> bytes:
+    """FileDescriptorSet of foxglove.FrameTransforms (https://docs.foxglove.dev/docs/sdk/schemas/frame-transforms)."""
+    stamp = FileDescriptorProto.FromString(timestamp_pb2.DESCRIPTOR.serialized_pb)
+    vector = _file("foxglove.Vector3", [(c, "double") for c in "xyz"])
+    quaternion = _file("foxglove.Quaternion", [(c, "double") for c in "xyzw"])
+    fields = [
+        ("timestamp", ".google.protobuf.Timestamp"),
+        ("parent_frame_id", "string"),
+        ("child_frame_id", "string"),
+        ("translation", ".foxglove.Vector3"),
+        ("rotation", ".foxglove.Quaternion"),
+    ]
+    transform = _file("foxglove.FrameTransform", fields, [_STAMP, vector.name, quaternion.name])
+    transforms = _file(TF_SCHEMA, [("transforms", ".foxglove.FrameTransform")], [transform.name])
+    transforms.message_type[0].field[0].label = FieldDescriptorProto.LABEL_REPEATED
+    return _bundle(stamp, vector, quaternion, transform, transforms)
+
+
+def schema_of(topic: str) -> tuple[str, bytes]:
+    """Name and FileDescriptorSet of any topic of the log. Raises KeyError for an unknown one."""
+    if topic == STATUS:
+        return STATUS_SCHEMA, status_schema()
+    if topic == TF:
+        return TF_SCHEMA, transforms_schema()
+    table = {t.name: t for t in TOPICS}
+    return table[topic].schema, flat_schema(table[topic])
+
+
+def message_class(name: str, schema: bytes) -> Any:
+    """The message type `name` of a serialised FileDescriptorSet; Any, because its fields are known at run time only."""
+    pool = descriptor_pool.DescriptorPool()
+    for file in FileDescriptorSet.FromString(schema).file:
+        pool.Add(file)
+    return message_factory.GetMessageClass(pool.FindMessageTypeByName(name))
+
+
+def flat_fields(name: str, schema: bytes) -> tuple[str, ...] | None:
+    """Field names of the message `name` if it is flat doubles numbered from 1 (the layout of `wire`), else None."""
+    for file in FileDescriptorSet.FromString(schema).file:
+        for message in file.message_type:
+            if f"{file.package}.{message.name}" == name:
+                flat = all(f.number == i and _is_double(f) for i, f in enumerate(message.field, 1))
+                return tuple(f.name for f in message.field) if flat and message.field else None
+    return None
+
+
+def _is_double(field: FieldDescriptorProto) -> bool:
+    return field.type == FieldDescriptorProto.TYPE_DOUBLE and field.label == FieldDescriptorProto.LABEL_OPTIONAL
+
+
+def _file(name: str, fields: list[tuple[str, str]], imports: list[str] | None = None) -> FileDescriptorProto:
+    """One .proto file with one message; a type that starts with a dot is another message."""
+    package, _, short = name.rpartition(".")
+    file = FileDescriptorProto(name=name.replace(".", "/") + ".proto", package=package, syntax="proto3", dependency=imports)
+    message = file.message_type.add(name=short)
+    for number, (field, kind) in enumerate(fields, 1):
+        added = message.field.add(name=field, number=number, label=FieldDescriptorProto.LABEL_OPTIONAL)
+        if kind.startswith("."):
+            added.type, added.type_name = FieldDescriptorProto.TYPE_MESSAGE, kind
+        else:
+            added.type = FieldDescriptorProto.TYPE_DOUBLE if kind == "double" else FieldDescriptorProto.TYPE_STRING
+    return file
+
+
+def _bundle(*files: FileDescriptorProto) -> bytes:
+    return FileDescriptorSet(file=files).SerializeToString(deterministic=True)

@@ -1,0 +1,68 @@
+"""`/tf`: foxglove.FrameTransforms base -> stage -> cabin with a fixed layout on the wire, for viewers.
+
+The stage is moved by p_WS_W and the cabin turned by q_WS. Field numbers are those of `schemas.transforms_schema`. The
+varints of the time stamp are padded to five bytes, which every decoder reads as the same numbers, so that all messages have
+one length.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .wire import HEAD, Array, Records, Times, record_template
+
+RATE_HZ = 60.0  # what viewers draw; more would only fill the log
+_VARINT = 5  # bytes; holds seconds below 2^35 and nanoseconds below 2^30
+_DOUBLE = [("tag", "u1"), ("value", "<f8")]
+
+
+def transform_template(channel: int) -> Records:
+    """One record of base -> stage -> cabin with everything constant in place; shape ()."""
+    stage, cabin = _transform("base", "stage"), _transform("stage", "cabin")
+    dtype = np.dtype([*HEAD, ("stage", _dtype("base", "stage")), ("cabin", _dtype("stage", "cabin"))])
+    template: Records = np.frombuffer(record_template(channel, stage + cabin), dtype).copy().reshape(())
+    template["stage"]["rotation"]["value"][3] = 1.0  # no turn: w is last in foxglove.Quaternion
+    return template
+
+
+def put_transforms(records: Records, times: Times, q_WS: Array, p_WS_W: Array) -> None:
+    """Write log times (n,) ns, q_WS (n, 4) and p_WS_W (n, 3) m into n records of `transform_template`."""
+    records["log_time"] = records["publish_time"] = times
+    for part in ("stage", "cabin"):
+        records[part]["seconds"] = _varint(times // np.uint64(1_000_000_000))
+        records[part]["nanoseconds"] = _varint(times % np.uint64(1_000_000_000))
+    records["stage"]["translation"]["value"] = p_WS_W
+    records["cabin"]["rotation"]["value"] = q_WS[:, [1, 2, 3, 0]]
+
+
+def _dtype(parent: str, child: str) -> np.dtype[np.void]:
+    """Layout of `_transform`."""
+    return np.dtype(
+        [
+            ("until_seconds", "u1", (5,)),
+            ("seconds", "u1", (_VARINT,)),
+            ("nanoseconds_tag", "u1"),
+            ("nanoseconds", "u1", (_VARINT,)),
+            ("frames", "u1", (4 + len(parent) + len(child),)),
+            ("translation_tag", "u1", (2,)),
+            ("translation", _DOUBLE, (3,)),
+            ("rotation_tag", "u1", (2,)),
+            ("rotation", _DOUBLE, (4,)),
+        ]
+    )
+
+
+def _transform(parent: str, child: str) -> bytes:
+    """An element of `transforms` on the wire, with zeros for time stamp, translation and rotation."""
+    stamp = b"\x08" + bytes(_VARINT) + b"\x10" + bytes(_VARINT)
+    vector = b"".join(bytes((tag, *bytes(8))) for tag in (0x09, 0x11, 0x19))
+    quaternion = vector + b"\x21" + bytes(8)
+    parts = ((0x0A, stamp), (0x12, parent.encode()), (0x1A, child.encode()), (0x22, vector), (0x2A, quaternion))
+    body = b"".join(bytes((tag, len(part))) + part for tag, part in parts)
+    return bytes((0x0A, len(body))) + body
+
+
+def _varint(values: Times) -> NDArray[np.uint8]:
+    """Varints (n, 5) of numbers below 2^35: seven bits a byte, the lowest first, with a flag on all but the last byte."""
+    bits = values[:, None] >> np.arange(0, 7 * _VARINT, 7, dtype=np.uint64) & np.uint64(0x7F)
+    bits[:, :-1] |= np.uint64(0x80)
+    return bits.astype(np.uint8)
