@@ -1,0 +1,8 @@
+"""Figures of a run, computed from its logged columns."""
+
+from .consistency import consistency, reintegrate
+from .flight import Columns, Flight
+from .limits import limit_use, violations
+from .metrics import metrics
+
+__all__ = ["Columns", "Flight", "consistency", "limit_use", "metrics", "reintegrate", "violations"]

@@ -1,0 +1,43 @@
+"""A flight in which nothing happens, to be changed field by field."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from atlas_cueing.evaluation import Flight
+
+G = 9.80665
+
+
+def still(count: int, dt: float = 0.01, **changes: np.ndarray) -> Flight:
+    """At rest, upright, heading north, `count` ticks; arrays in `changes` replace fields and are stretched to all ticks."""
+    zero, unit = np.zeros((count, 3)), np.tile([1.0, 0.0, 0.0, 0.0], (count, 1))
+    weight = np.tile([0.0, 0.0, -G], (count, 1))
+    flight = Flight(
+        time=np.arange(count) * dt,
+        vehicle_q_NB=unit,
+        vehicle_w_B=zero,
+        vehicle_f_B=weight,
+        cue_q_WS=unit,
+        cue_w_W=zero,
+        cue_p_W=zero,
+        cue_v_W=zero,
+        cue_a_W=zero,
+        motion_q_WS=unit,
+        motion_w_W=zero,
+        motion_alpha_W=zero,
+        motion_p_W=zero,
+        motion_v_W=zero,
+        motion_a_W=zero,
+        limited=np.zeros((count, 2)),
+        wheel_speed=zero,
+        wheel_acceleration=zero,
+        felt_f=weight,
+        felt_w=zero,
+    )
+    return replace(flight, **{name: np.broadcast_to(v, getattr(flight, name).shape).copy() for name, v in changes.items()})
+
+
+def sine(count: int, amplitude: float, periods: int) -> np.ndarray:
+    """Whole periods of a sine, (count,): its rms is amplitude / sqrt(2), whatever the sampling."""
+    return amplitude * np.sin(2.0 * np.pi * periods * np.arange(count) / count)
