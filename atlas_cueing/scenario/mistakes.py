@@ -1,0 +1,137 @@
+"""From pydantic's errors to the user's mistakes: file, key as written, value found, what is allowed."""
+
+import re
+from collections.abc import Collection, Sequence
+from difflib import get_close_matches
+from typing import Any, TypeAlias
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from ..errors import Mistake
+from .table import Table, tables_in
+
+_KINDS = {"model_type": "a table", "bool_type": "true or false", "string_type": "a string"}  # pydantic's names
+
+Key: TypeAlias = tuple[str | int, ...]
+
+SET = "--set"  # where a key from the command line came from
+_LONGEST_VALUE = 60  # characters of a found value that a message repeats
+
+
+def mistakes_of(error: ValidationError, table: type[Table], data: dict[str, Any], name_file: "FileNamer") -> list[Mistake]:
+    """Every mistake once, in the order of the file; `name_file` says which file (or option) a key came from."""
+    found: dict[Key, tuple[tuple[int, ...], Mistake]] = {}
+    for detail in error.errors(include_url=False):
+        key, value = _as_written(detail["loc"], data)
+        if detail["type"] == "union_tag_invalid":
+            key, value = (*key, "method"), _lookup(value, "method")
+        mistake = Mistake(name_file(key), dotted(key), shown(value), _allowed(detail, table))
+        found.setdefault(key, (_position(key, data), mistake))
+    return [mistake for _, mistake in sorted(found.values(), key=lambda pair: pair[0])]
+
+
+class FileNamer:
+    """Which file a key came from: `--set` for what was set on the command line, else the file itself."""
+
+    def __init__(self, file: str, overridden: Collection[Key] = ()) -> None:
+        self._file = file
+        self._overridden = overridden
+
+    def __call__(self, key: Key) -> str:
+        """Name for messages."""
+        return SET if any(_related(key, path) for path in self._overridden) else self._file
+
+
+def _related(key: Key, path: Key) -> bool:
+    """Whether one holds the other."""
+    return key[: len(path)] == path or path[: len(key)] == key
+
+
+def dotted(key: Key) -> str:
+    """`vehicle.input.0.value`: the key as `--set` takes it; a part that would not print in one line is quoted."""
+    return ".".join(text if (text := str(part)).isprintable() else repr(part) for part in key)
+
+
+def nearest(word: str, known: Collection[str]) -> str:
+    """What is allowed instead of an unknown word: the nearest one first, then all if they are few."""
+    near = get_close_matches(word, known, n=1, cutoff=0.5)
+    guess = f"did you mean {near[0]!r}? " if near else ""
+    return f"{guess}allowed: {', '.join(sorted(known))}" if len(known) <= 20 or not near else guess.rstrip()
+
+
+def shown(value: Any) -> str:
+    """A found value as TOML would write it, cut to a readable length; empty when there is none or it is a table."""
+    if value is None or isinstance(value, dict):
+        return ""
+    text = str(value).lower() if isinstance(value, bool) else _repr(value)
+    return text if len(text) <= _LONGEST_VALUE else text[:_LONGEST_VALUE] + "..."
+
+
+def _repr(value: Any) -> str:
+    try:
+        return repr(value)
+    except ValueError:  # an integer of more than 4300 digits
+        return "an integer of thousands of digits"
+
+
+def _allowed(detail: ErrorDetails, table: type[Table]) -> str:
+    kind, context = detail["type"], detail.get("ctx", {})
+    if kind == "extra_forbidden":
+        return f"unknown key; {nearest(str(detail['loc'][-1]), _known_keys(table, detail['loc'][:-1]))}"
+    if kind == "missing":
+        return "missing"
+    if kind == "union_tag_invalid":
+        return nearest(str(context["tag"]), re.findall(r"'(\w+)'", context["expected_tags"]))
+    if kind in _KINDS:
+        return f"allowed: {_KINDS[kind]}"
+    if kind == "allowed":
+        return f"allowed: {context['allowed']}"
+    return detail["msg"]
+
+
+def _known_keys(table: type[Table], loc: Sequence[str | int]) -> list[str]:
+    """Keys of the table at `loc`; a method's tag in `loc` picks one of several tables."""
+    tables = [table]
+    for part in loc:
+        if isinstance(part, int):
+            continue
+        inner = [t for candidate in tables if part in candidate.model_fields for t in tables_in(_type(candidate, part))]
+        tables = inner or [t for t in tables if "method" in t.model_fields and t.model_fields["method"].default == part]
+    return [name for candidate in tables for name in candidate.model_fields]
+
+
+def _type(table: type[Table], field: str) -> Any:
+    return table.model_fields[field].annotation
+
+
+def _as_written(loc: Sequence[str | int], data: Any) -> tuple[Key, Any]:
+    """The key as it stands in the file, and its value: without union tags, and without places in a number that was spread."""
+    key: list[str | int] = []
+    value = data
+    for i, part in enumerate(loc):
+        in_list = isinstance(value, list) and isinstance(part, int) and part < len(value)
+        if in_list or (isinstance(value, dict) and part in value):
+            key.append(part)
+            value = value[part]
+        elif isinstance(value, dict) and i == len(loc) - 1:
+            return (*key, part), None
+    return tuple(key), value
+
+
+def _position(key: Key, data: Any) -> tuple[int, ...]:
+    """Where the key stands in the file, for sorting; a missing one after its table's last."""
+    places = []
+    for part in key:
+        if isinstance(data, dict):
+            places.append(list(data).index(part) if part in data else len(data))
+        else:
+            places.append(int(part))
+        data = _lookup(data, part)
+    return tuple(places)
+
+
+def _lookup(container: Any, part: str | int) -> Any:
+    if isinstance(container, dict):
+        return container.get(str(part))
+    return container[part] if isinstance(container, list) and isinstance(part, int) and part < len(container) else None

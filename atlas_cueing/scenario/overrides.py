@@ -1,0 +1,83 @@
+"""`--set KEY=VALUE`: keys of a scenario or platform set from the command line."""
+
+from collections.abc import Sequence
+from typing import Any, TypeAlias
+
+from ..errors import Mistake, ScenarioError
+from .mistakes import SET, Key, dotted, shown
+from .reading import parse_toml
+
+Overrides: TypeAlias = dict[Key, Any]
+
+# Setting one of these takes the other one out: a scenario has exactly one of them.
+_ALTERNATIVES: dict[Key, tuple[Key, ...]] = {
+    ("platform", "preset"): (("platform", "file"),),
+    ("platform", "file"): (("platform", "preset"),),
+    ("vehicle", "script"): (("vehicle", "aircraft"), ("vehicle", "initial"), ("vehicle", "input")),
+    ("vehicle", "aircraft"): (("vehicle", "script"),),
+}
+
+
+def parse_overrides(texts: Sequence[str]) -> Overrides:
+    """Keys and values of `KEY=VALUE` texts, the last of equal keys counts; a value that is not TOML is a bare string.
+
+    Raises ScenarioError for every text without a key or `=`.
+    """
+    overrides: Overrides = {}
+    mistakes = []
+    for text in texts:
+        key, equals, value = text.partition("=")
+        parts = tuple(int(part) if part.isdecimal() and part.isascii() else part for part in key.strip().split("."))
+        if not equals or "" in parts:
+            mistakes.append(Mistake(SET, text, "", "allowed: KEY=VALUE, with a dotted key such as cueing.method=blend"))
+        else:
+            overrides.pop(parts, None)
+            overrides[parts] = _value(value.strip())
+    if mistakes:
+        raise ScenarioError(mistakes)
+    return overrides
+
+
+def _value(text: str) -> Any:
+    try:
+        table = parse_toml(f"value = {text}", SET)
+    except ScenarioError:
+        return text
+    return table["value"] if table.keys() == {"value"} else text  # a line break in the text could smuggle in more keys
+
+
+def apply_overrides(data: dict[str, Any], overrides: Overrides) -> list[Mistake]:
+    """Put the values into `data`, making tables where there are none; mistakes for keys that lead nowhere."""
+    mistakes = []
+    for key, value in overrides.items():
+        for other in _ALTERNATIVES.get(key, ()):
+            if other not in overrides:
+                _remove(data, other)
+        reason = _put(data, key, value)
+        if reason:
+            mistakes.append(Mistake(SET, dotted(key), shown(value), reason))
+    return mistakes
+
+
+def _put(data: Any, key: Key, value: Any) -> str:
+    """Set one value; why not, when it cannot be."""
+    for i, part in enumerate(key):
+        here = dotted(key[:i])
+        if isinstance(data, list):
+            if not isinstance(part, int) or part >= len(data):
+                return f"allowed: {here}.N with 0 <= N <= {len(data) - 1}"
+        elif not isinstance(data, dict):
+            return f"{here} is not a table"
+        else:
+            part = str(part)
+        if i == len(key) - 1:
+            data[part] = value
+        else:
+            data = data.setdefault(part, {}) if isinstance(data, dict) else data[part]
+    return ""
+
+
+def _remove(data: dict[str, Any], key: Key) -> None:
+    table, name = key
+    if isinstance(inner := data.get(str(table)), dict):
+        inner.pop(name, None)

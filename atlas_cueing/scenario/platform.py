@@ -1,0 +1,117 @@
+"""The platform file: geometry, limits and where the rider's head is."""
+
+from functools import cache
+from pathlib import Path
+from typing import Annotated, TypeAlias
+
+from pydantic import ValidationInfo, field_validator, model_validator
+
+from ..errors import InputError
+from ..rotation import Vec3, norm
+from ..signals import StageLimits, WheelLimits
+from ..wheels import Geometry, OmniWheel
+from .table import ONE_OR_THREE, THREE, Finite, Table, number, object_to, refuse, text
+
+Direction: TypeAlias = Annotated[tuple[Finite, Finite, Finite], THREE]
+Length: TypeAlias = Annotated[float, number(0.001, 100.0)]  # m; from a bead to a gasometer
+Limit: TypeAlias = Annotated[float, number(0.0, 1e6, above=True)]
+Limits: TypeAlias = Annotated[tuple[Limit, Limit, Limit], ONE_OR_THREE]
+
+NAME = text(
+    "letters, digits, '.', '_', '-', not starting with '.', at most 100",
+    lambda name: 0 < len(name) <= 100 and name[0] != "." and all(c.isascii() and (c.isalnum() or c in "._-") for c in name),
+)
+
+
+class SphereTable(Table):
+    """`[sphere]`."""
+
+    radius_m: Length
+
+
+class WheelTable(Table):
+    """One `[[wheel]]`: directions in W, of any length."""
+
+    contact: Direction
+    drive: Direction
+    radius_m: Length
+
+    @model_validator(mode="after")
+    def _is_a_wheel(self) -> "WheelTable":
+        try:
+            self.wheel()
+        except InputError as error:
+            raise object_to(str(error)) from None
+        return self
+
+    def wheel(self) -> OmniWheel:
+        """The wheel with unit directions and a drive exactly tangent to the sphere."""
+        return OmniWheel.along(self.contact, self.drive, self.radius_m)
+
+
+class WheelLimitsTable(Table):
+    """`[wheel_limits]`: one number for all wheels, or one each."""
+
+    speed_rad_s: Limits
+    acceleration_rad_s2: Limits
+    jerk_rad_s3: Limits
+
+
+class StageLimitsTable(Table):
+    """`[stage_limits]`: one number for all axes of W, or one each; travel is plus or minus from the centre."""
+
+    travel_m: Limits
+    speed_m_s: Limits
+    acceleration_m_s2: Limits
+    jerk_m_s3: Limits
+
+
+class RiderTable(Table):
+    """`[rider]`: where the head is, from the sphere centre, in S."""
+
+    head_m: Annotated[tuple[Finite, Finite, Finite], THREE] = (0.0, 0.0, 0.0)
+
+
+class Platform(Table):
+    """A platform file."""
+
+    name: Annotated[str, NAME]
+    sphere: SphereTable
+    wheel: Annotated[tuple[WheelTable, WheelTable, WheelTable], THREE]
+    wheel_limits: WheelLimitsTable
+    stage_limits: StageLimitsTable
+    rider: RiderTable = RiderTable()
+
+    @field_validator("rider")
+    @classmethod
+    def _head_in_sphere(cls, rider: RiderTable, info: ValidationInfo) -> RiderTable:
+        sphere = info.data.get("sphere")  # missing when it has mistakes of its own
+        if sphere and norm(rider.head_m) > sphere.radius_m:
+            raise refuse(f"head_m within the sphere, |head_m| <= {sphere.radius_m:g}")
+        return rider
+
+    def geometry(self) -> Geometry:
+        """The kinematics; a singular one is refused by whoever needs the drive."""
+        first, second, third = self.wheel
+        return Geometry(self.name, self.sphere.radius_m, (first.wheel(), second.wheel(), third.wheel()))
+
+    def wheel_speed_limits(self) -> WheelLimits:
+        """Limits of the wheels, SI."""
+        table = self.wheel_limits
+        return WheelLimits(table.speed_rad_s, table.acceleration_rad_s2, table.jerk_rad_s3)
+
+    def stage_motion_limits(self) -> StageLimits:
+        """Limits of the stage, SI."""
+        table = self.stage_limits
+        return StageLimits(table.travel_m, table.speed_m_s, table.acceleration_m_s2, table.jerk_m_s3)
+
+    @property
+    def head_S(self) -> Vec3:
+        """The rider's head from the sphere centre, m, in S."""
+        return self.rider.head_m
+
+
+@cache
+def presets() -> dict[str, Path]:
+    """The platforms that ship with the package: name to file."""
+    return {path.stem: path for path in sorted((Path(__file__).parent / "presets").glob("*.toml"))}

@@ -1,0 +1,78 @@
+"""TOML from strangers: size, nesting and dotted keys are bounded before the parser sees the text.
+
+tomllib takes seconds for one dotted key of 40 kB and raises RecursionError for deep arrays.
+"""
+
+import re
+import stat
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from ..errors import Mistake, ScenarioError
+
+LARGEST_FILE = 256 * 1024  # bytes; a scenario of a thousand timed inputs has 80 kB
+DEEPEST_NESTING = 16  # brackets within brackets; the files here need three
+LONGEST_DOTTED_KEY = 16  # dots; the files here need three
+
+# Strings and comments hold brackets and dots that mean nothing. A string may lack its end, so that every character is read
+# once (the parser stops there anyway), and nothing is given back (`*+`); up to five quotes end a string of three.
+_QUOTED = re.compile(
+    r"""
+      \"{3} (?: \\. | (?!\"{3}) [^\\] )*+ (?:\"{3,5})?
+    | '{3}  (?: (?!'{3}) . )*+ (?:'{3,5})?
+    | \"    (?: \\. | [^\"\\\n] )*+ \"?
+    | '     [^'\n]*+ '?
+    | \#    [^\n]*+
+    """,
+    re.DOTALL | re.VERBOSE,
+)
+_BETWEEN_KEYS = re.compile(r"[=,{}\[\]\n]")
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """The file as a table. Raises ScenarioError when it cannot be read, is too large or nested, or is not TOML."""
+    return parse_toml(_read(path), str(path))
+
+
+def parse_toml(text: str, file: str) -> dict[str, Any]:
+    """As `read_toml` for a text; `file` is for messages."""
+    _check_shape(text, file)
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as error:  # not only TOMLDecodeError: an integer of 5000 digits is a plain ValueError
+        raise _mistake(file, "TOML", f"not valid: {error}") from None
+
+
+def _read(path: Path) -> str:
+    try:
+        if not stat.S_ISREG(path.stat().st_mode):  # opening a pipe would wait for ever
+            raise _mistake(str(path), "file", "not a regular file")
+        with path.open("rb") as file:
+            content = file.read(LARGEST_FILE + 1)
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the path
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise _mistake(str(path), "file", f"cannot be read: {reason}") from None
+    if len(content) > LARGEST_FILE:
+        raise _mistake(str(path), "file", f"too large, allowed: size <= {LARGEST_FILE} bytes")
+    try:
+        return content.decode()
+    except UnicodeDecodeError as error:
+        raise _mistake(str(path), "file", f"not UTF-8 text: byte {error.start}") from None
+
+
+def _check_shape(text: str, file: str) -> None:
+    if len(text) > LARGEST_FILE:
+        raise _mistake(file, "file", f"too large, allowed: size <= {LARGEST_FILE} bytes")
+    bare = _QUOTED.sub("_", text)
+    if max(piece.count(".") for piece in _BETWEEN_KEYS.split(bare)) > LONGEST_DOTTED_KEY:
+        raise _mistake(file, "TOML", f"a key has too many dots, allowed: dots <= {LONGEST_DOTTED_KEY}")
+    depth = 0
+    for bracket in re.findall(r"[\[\]{}]", bare):
+        depth += 1 if bracket in "[{" else -1
+        if depth > DEEPEST_NESTING:
+            raise _mistake(file, "TOML", f"nested too deeply, allowed: brackets <= {DEEPEST_NESTING}")
+
+
+def _mistake(file: str, key: str, allowed: str) -> ScenarioError:
+    return ScenarioError([Mistake(file, key, "", allowed)])

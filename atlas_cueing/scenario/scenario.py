@@ -1,0 +1,123 @@
+"""The scenario file, and the scenario that it becomes together with its platform."""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import tomli_w
+from pydantic import BeforeValidator
+
+from ..recording.recorder import MAX_CHUNK_TICKS
+from .cueing import BlendTable, CueingTable
+from .mistakes import nearest
+from .platform import NAME, Platform, presets
+from .table import Table, number, refuse, text, whole
+from .vehicle import Flight, VehicleTable
+
+# The other topics are what the run is evaluated from.
+DISPENSABLE_TOPICS = ("/tf",)
+
+
+def _known_preset(value: Any) -> str:
+    if not isinstance(value, str) or value not in presets():
+        raise refuse(f"a platform of the package; {nearest(str(value), presets())}")
+    return value
+
+
+def is_path(text: str) -> bool:
+    """Whether a text can be a path, and be shown in one line of a message."""
+    return text != "" and text.isprintable()
+
+
+def _dispensable(value: Any) -> str:
+    if value not in DISPENSABLE_TOPICS:
+        raise refuse(f"{', '.join(DISPENSABLE_TOPICS)}; a run is evaluated from the others")
+    return str(value)
+
+
+class PlatformChoice(Table):
+    """`[platform]`: exactly one of `preset` and `file`, which `platform_rules` checks."""
+
+    preset: Annotated[str, BeforeValidator(_known_preset)] | None = None
+    file: Annotated[str, text("path of a platform file, from the scenario's folder", is_path)] | None = None
+
+
+def _as_tuple(value: Any) -> Any:
+    if not isinstance(value, list | tuple):
+        raise refuse("a list of topics")
+    return tuple(value)
+
+
+class RecordingTable(Table):
+    """`[recording]`: ticks in one chunk of the log, and topics left out."""
+
+    chunk_ticks: Annotated[int, whole(1, MAX_CHUNK_TICKS)] = 512
+    skip: Annotated[tuple[Annotated[str, BeforeValidator(_dispensable)], ...], BeforeValidator(_as_tuple)] = ()
+
+
+class ScenarioFile(Table):
+    """A scenario file; validate it with `context={"folder": ...}`, where user's scripts are looked for."""
+
+    name: Annotated[str, NAME]
+    description: str = ""
+    duration_s: Annotated[float, number(0.0, 86400.0, above=True)] | None = None
+    vehicle: VehicleTable
+    platform: PlatformChoice
+    cueing: CueingTable = BlendTable()
+    recording: RecordingTable = RecordingTable()
+
+
+@dataclass(frozen=True, slots=True)
+class Scenario:
+    """A scenario that can be flown: the file with every override in it, its platform, and the folder of the user's scripts."""
+
+    file: ScenarioFile
+    platform: Platform
+    folder: Path
+
+    @property
+    def name(self) -> str:
+        """Name, fit for a file name."""
+        return self.file.name
+
+    @property
+    def flight(self) -> Flight:
+        """What the vehicle flies."""
+        return self.file.vehicle.flight(self.file.duration_s, self.folder)
+
+    def scenario_toml(self) -> str:
+        """The scenario with all defaults written out; its platform is `platform.toml`, and a user's script lies beside it."""
+        table = _plain(self.file)
+        table["platform"] = {"file": "platform.toml"}
+        if not self.file.vehicle.input:
+            del table["vehicle"]["input"]  # a script must not have any
+        script = self.file.vehicle.user_script(self.folder)
+        if script is not None:
+            table["vehicle"]["script"] = f"./{script.name}"  # never mistaken for one of JSBSim's own
+        return tomli_w.dumps(table)
+
+    def platform_toml(self) -> str:
+        """The platform with all defaults and overrides written out."""
+        return tomli_w.dumps(_plain(self.platform))
+
+    def attachments(self) -> dict[str, bytes]:
+        """Files that fly this scenario again when put into one folder: name to content."""
+        files = {}
+        script = self.file.vehicle.user_script(self.folder)
+        if script is not None:
+            files[script.name] = script.read_bytes()
+            files |= {path.name: path.read_bytes() for path in _beside(script, files[script.name], self.folder)}
+        return files | {"scenario.toml": self.scenario_toml().encode(), "platform.toml": self.platform_toml().encode()}
+
+
+def _plain(table: Table) -> dict[str, Any]:
+    """The table as TOML can hold it: keys without a value left out."""
+    return table.model_dump(exclude_none=True)
+
+
+def _beside(script: Path, content: bytes, folder: Path) -> list[Path]:
+    """The script's own file of initial conditions, when it lies in the script's folder."""
+    named = re.search(rb"initialize\s*=\s*[\"']([\w.-]+)[\"']", content)
+    path = script.parent / f"{named[1].decode().removesuffix('.xml')}.xml" if named else script
+    return [path] if path != script and path.is_file() and path.resolve().is_relative_to(folder.resolve()) else []

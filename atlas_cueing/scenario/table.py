@@ -1,0 +1,101 @@
+"""A table of a file: what its keys may hold. Each mistake gets one message that says what is allowed."""
+
+from collections.abc import Callable
+from math import isfinite
+from typing import Annotated, Any, TypeAlias, get_args
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict
+from pydantic_core import PydanticCustomError
+
+
+class Table(BaseModel):
+    """A TOML table: no unknown keys, no conversions except integer to float, immutable."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
+
+
+def refuse(allowed: str) -> PydanticCustomError:
+    """The error to raise from a validator: its text says what is allowed."""
+    return PydanticCustomError("allowed", "{allowed}", {"allowed": allowed})
+
+
+def object_to(reason: str) -> PydanticCustomError:
+    """The error to raise from a validator whose text says both what is wrong and what is allowed."""
+    return PydanticCustomError("refused", "{reason}", {"reason": reason})
+
+
+def number(lower: float, upper: float, *, above: bool = False) -> BeforeValidator:
+    """A finite number, `lower <= value <= upper`; with `above`, `lower` itself is not allowed."""
+    text = f"a number, {lower:g} {'<' if above else '<='} value <= {upper:g}"
+
+    def check(value: Any) -> float:
+        # An integer of TOML has no bound, and float() of a huge one overflows: compare first.
+        if isinstance(value, bool) or not isinstance(value, int | float) or not lower <= value <= upper:
+            raise refuse(text)
+        if above and value == lower:
+            raise refuse(text)
+        return float(value)
+
+    return BeforeValidator(check)
+
+
+def whole(lower: int, upper: int) -> BeforeValidator:
+    """A whole number, `lower <= value <= upper`."""
+
+    def check(value: Any) -> int:
+        if isinstance(value, bool) or not isinstance(value, int) or not lower <= value <= upper:
+            raise refuse(f"a whole number, {lower} <= value <= {upper}")
+        return value
+
+    return BeforeValidator(check)
+
+
+def _finite(value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(_to_float(value)):
+        raise refuse("a finite number")
+    return float(value)
+
+
+def _to_float(value: float) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        return float("inf")
+
+
+def _three(value: Any) -> Any:
+    if not isinstance(value, list | tuple) or len(value) != 3:
+        raise refuse("a list of three")
+    return tuple(value)
+
+
+def _one_or_three(value: Any) -> Any:
+    if not isinstance(value, list | tuple):
+        return (value, value, value)
+    if len(value) != 3:
+        raise refuse("a number, or a list of three")
+    return tuple(value)
+
+
+def text(allowed: str, accept: Callable[[str], bool]) -> BeforeValidator:
+    """A string that `accept` likes."""
+
+    def check(value: Any) -> str:
+        if not isinstance(value, str) or not accept(value):
+            raise refuse(allowed)
+        return value
+
+    return BeforeValidator(check)
+
+
+THREE = BeforeValidator(_three)
+ONE_OR_THREE = BeforeValidator(_one_or_three)  # one number stands for all three
+
+Finite: TypeAlias = Annotated[float, BeforeValidator(_finite)]
+
+
+def tables_in(annotation: Any) -> list[type[Table]]:
+    """The tables that a key of this type may hold."""
+    if isinstance(annotation, type) and issubclass(annotation, Table):
+        return [annotation]
+    return [table for argument in get_args(annotation) for table in tables_in(argument)]

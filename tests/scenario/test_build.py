@@ -1,0 +1,78 @@
+import json
+from pathlib import Path
+
+import pytest
+
+from atlas_cueing.errors import InputError, SlipConditionError
+from atlas_cueing.rotation import IDENTITY, ZERO
+from atlas_cueing.scenario import Scenario, build, load_scenario
+from atlas_cueing.signals import STANDARD_GRAVITY, VehicleState
+
+from .texts import SCRIPT
+
+RESTING = VehicleState(0.0, IDENTITY, ZERO, (0.0, 0.0, -STANDARD_GRAVITY))
+FLAT = ["[1, 0, 0]", "[-0.5, -0.8660254037844386, 0]", "[-0.5, 0.8660254037844386, 0]"]
+
+
+def loaded(folder: Path, *overrides: str) -> Scenario:
+    (folder / "s.toml").write_text(SCRIPT)
+    return load_scenario(folder / "s.toml", overrides)
+
+
+def test_at_rest_nothing_moves(tmp_path: Path) -> None:
+    pipeline = build(loaded(tmp_path), 0.01)
+    for tick in range(50):
+        state = VehicleState(tick * 0.01, IDENTITY, ZERO, RESTING.f_B)
+        result = pipeline.step(state)
+    assert result.vehicle == state
+    assert result.wheels.speed == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
+    assert result.motion.p_WS_W == pytest.approx((0.0, 0.0, 0.0), abs=1e-6)
+    assert result.motion.time == pytest.approx(state.time)
+
+
+def test_the_platforms_numbers_arrive(tmp_path: Path) -> None:
+    """A vehicle that starts to roll: wheels turn as the platform's own J^-1 says, slower than the limit that was set."""
+    scenario = loaded(
+        tmp_path, "platform.wheel_limits.speed_rad_s=0.5", "platform.wheel.0.radius_m=0.3", "cueing.method=attitude"
+    )
+    pipeline = build(scenario, 0.01)
+    fastest = 0.0
+    for tick in range(200):
+        result = pipeline.step(VehicleState(tick * 0.01, IDENTITY, (1.0, 0.0, 0.0), RESTING.f_B))
+        fastest = max(fastest, *map(abs, result.wheels.speed))
+    rows = scenario.platform.geometry().wheels_from_sphere
+    expected = [sum(a * b for a, b in zip(row, result.motion.w_WS_W, strict=True)) for row in rows]
+    assert result.wheels.speed == pytest.approx(expected, abs=1e-12)
+    assert 0.45 < fastest <= 0.5 * (1.0 + 1e-9)
+
+
+def test_two_pipelines_share_nothing(tmp_path: Path) -> None:
+    scenario = loaded(tmp_path)
+    first, second = build(scenario, 0.01), build(scenario, 0.01)
+    moved = VehicleState(0.0, (0.0, 1.0, 0.0, 0.0), (0.3, 0.1, 0.0), RESTING.f_B)
+    expected = second.step(RESTING)
+    assert first.step(moved) != expected
+    assert build(scenario, 0.01).step(RESTING) == expected
+
+
+def test_a_singular_platform_is_refused(tmp_path: Path) -> None:
+    scenario = loaded(tmp_path, *(f"platform.wheel.{i}.contact={contact}" for i, contact in enumerate(FLAT)))
+    with pytest.raises(SlipConditionError, match=r"platform 'atlas-2.9m' .*determinant"):
+        build(scenario, 0.01)
+
+
+def test_limits_that_leave_no_room_are_refused(tmp_path: Path) -> None:
+    scenario = loaded(tmp_path, "platform.stage_limits.travel_m=1e-300")
+    with pytest.raises(InputError, match=r"scenario 'short' on platform 'atlas-2.9m' at 100 Hz: "):
+        build(scenario, 0.01)
+
+
+def test_all_oracle_geometries_can_be_typed_into_a_platform(tmp_path: Path) -> None:
+    for case in json.loads((Path(__file__).parents[1] / "oracles" / "kinematics.json").read_text()):
+        settings = [f"platform.sphere.radius_m={case['sphere_radius_m']}"]
+        for i in range(3):
+            settings += [f"platform.wheel.{i}.{key}={case[key][i]}" for key in ("contact", "drive")]
+            settings += [f"platform.wheel.{i}.radius_m={case['wheel_radius_m'][i]}"]
+        geometry = loaded(tmp_path, *settings).platform.geometry()
+        assert geometry.slip_free == case["slip_free"]
+        assert geometry.wheels_from_sphere == tuple(pytest.approx(row, abs=1e-12) for row in case["wheels_from_sphere"])

@@ -1,0 +1,146 @@
+from math import radians
+from pathlib import Path
+
+import pytest
+
+from atlas_cueing.scenario import load_scenario
+from atlas_cueing.scenario.vehicle import script_beside
+from atlas_cueing.vehicles import AircraftFlight, InitialConditions, ScriptFlight, TimedInput, own_scripts
+
+from .conftest import Refused
+from .texts import AIRCRAFT, INITIAL, SCRIPT, USER_SCRIPT
+
+
+def load(folder: Path, text: str) -> ScriptFlight | AircraftFlight:
+    path = folder / "s.toml"
+    path.write_text(text)
+    return load_scenario(path).flight
+
+
+def test_own_script(tmp_path: Path) -> None:
+    assert load(tmp_path, SCRIPT) == ScriptFlight(own_scripts()["c1722"], None, 0.5)
+    faster = SCRIPT.replace('"c1722"', '"c1722"\nrate_hz = 240').replace("duration_s = 0.5", "")
+    assert load(tmp_path, faster) == ScriptFlight(own_scripts()["c1722"], 240.0, None)
+
+
+def test_aircraft_in_si(tmp_path: Path) -> None:
+    initial = InitialConditions(
+        altitude=1200.0,
+        airspeed=50.0,
+        heading=radians(90),
+        pitch=radians(2.5),
+        roll=radians(-10),
+        latitude=radians(45),
+        longitude=radians(-75),
+        engines_running=False,
+        trim=False,
+    )
+    inputs = (
+        TimedInput(0.1, "fcs/elevator-cmd-norm", -0.2, 0.0),
+        TimedInput(0.2, "fcs/aileron-cmd-norm", 1.0, 0.25),
+    )
+    assert load(tmp_path, AIRCRAFT) == AircraftFlight("c172x", initial, inputs, 60.0, 0.5)
+
+
+def test_defaults_are_those_of_the_vehicle(tmp_path: Path) -> None:
+    kept = ("altitude_m", "airspeed_m_s")
+    lines = [
+        line
+        for line in AIRCRAFT.splitlines()
+        if not line.endswith(("false",)) and ("_deg" not in line or line.startswith(kept))
+    ]
+    flight = load(tmp_path, "\n".join(lines))
+    assert isinstance(flight, AircraftFlight)
+    assert flight.initial == InitialConditions(altitude=1200.0, airspeed=50.0)
+
+
+def test_script_beside_the_scenario(tmp_path: Path) -> None:
+    (tmp_path / "scripts").mkdir()
+    script = tmp_path / "scripts" / "mine.xml"
+    script.write_text(USER_SCRIPT.format(initial="reset00"))
+    assert load(tmp_path, SCRIPT.replace("c1722", "scripts/mine.xml")) == ScriptFlight(script, None, 0.5)
+
+
+def test_own_name_wins_over_a_file(tmp_path: Path) -> None:
+    (tmp_path / "c1722").write_text(USER_SCRIPT)
+    assert load(tmp_path, SCRIPT) == ScriptFlight(own_scripts()["c1722"], None, 0.5)
+    assert load(tmp_path, SCRIPT.replace("c1722", "./c1722")) == ScriptFlight(tmp_path / "c1722", None, 0.5)
+
+
+def test_a_script_outside_the_folder_is_refused(tmp_path: Path, refused: Refused) -> None:
+    outside = tmp_path / "outside.xml"
+    outside.write_text(USER_SCRIPT)
+    inside = tmp_path / "in"
+    inside.mkdir()
+    (inside / "link.xml").symlink_to(outside)
+    (inside / "good.xml").write_text(INITIAL)
+    assert script_beside("good.xml", inside) == inside / "good.xml"
+    for name in ("../outside.xml", str(outside), "link.xml", "", ".", "missing.xml", "a\0b", "x" * 5000):
+        assert script_beside(name, inside) is None
+    assert "in the scenario's folder" in refused(SCRIPT.replace("c1722", "../x.xml"))[0]
+
+
+def test_near_names_are_given(refused: Refused) -> None:
+    assert refused(SCRIPT.replace("c1722", "c1723x"))[0].endswith("did you mean 'c1723'?")
+    assert refused(AIRCRAFT.replace("c172x", "c172z"))[0].endswith("did you mean 'c172x'?")
+
+
+@pytest.mark.parametrize(
+    ("text", "mistakes"),
+    [
+        (SCRIPT.replace('script = "c1722"', ""), ["vehicle: exactly one of script and aircraft"]),
+        (AIRCRAFT.replace("[vehicle]", '[vehicle]\nscript = "c1722"'), ["vehicle: exactly one of script and aircraft"]),
+        (
+            AIRCRAFT.replace('aircraft = "c172x"', 'script = "c1722"'),
+            ["vehicle.initial: not with script, which has its own", "vehicle.input: not with script, which has its own"],
+        ),
+        (
+            'name = "x"\n[platform]\npreset = "atlas-2.9m"\n[vehicle]\naircraft = "f16"',
+            [
+                "vehicle.initial: missing, an aircraft needs initial conditions",
+                "duration_s: missing, an aircraft flight has no end of its own",
+            ],
+        ),
+        (
+            SCRIPT.replace("[vehicle]", '[vehicle]\nsource = "flightgear"'),
+            ["vehicle.source = 'flightgear': allowed: only 'jsbsim' flies in batch runs"],
+        ),
+        (SCRIPT.replace("[vehicle]", '[vehicle]\nsource = "xplane"'), ["vehicle.source = 'xplane': allowed: 'jsbsim'"]),
+        (
+            AIRCRAFT.replace("[[vehicle.input]]", "[vehicle.input]", 1).split("[[")[0] + '[platform]\npreset = "atlas-1.5m"',
+            ["vehicle.input: allowed: tables, written [[vehicle.input]]"],
+        ),
+        (
+            SCRIPT.replace("[vehicle]", "[vehicle]\nrate_hz = 1001"),
+            ["vehicle.rate_hz = 1001: allowed: a number, 10 <= value <= 1000"],
+        ),
+    ],
+    ids=["none", "both", "initial", "bare", "flightgear", "unknown source", "one input", "rate"],
+)
+def test_refused(refused: Refused, text: str, mistakes: list[str]) -> None:
+    assert refused(text) == [f"bad.toml: {mistake}" for mistake in mistakes]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "mistake"),
+    [
+        (
+            "altitude_m = 1200",
+            "altitude_m = nan",
+            "vehicle.initial.altitude_m = nan: allowed: a number, -500 <= value <= 1e+07",
+        ),
+        (
+            "airspeed_m_s = 50.0",
+            "airspeed_m_s = -1",
+            "vehicle.initial.airspeed_m_s = -1: allowed: a number, 0 <= value <= 20000",
+        ),
+        ("pitch_deg = 2.5", "pitch_deg = 91", "vehicle.initial.pitch_deg = 91: allowed: a number, -90 <= value <= 90"),
+        ("trim = false", 'trim = "no"', "vehicle.initial.trim = 'no': allowed: true or false"),
+        ("airspeed_m_s = 50.0", "", "vehicle.initial.airspeed_m_s: missing"),
+        ("ramp_s = 0.25", "ramp_s = -1", "vehicle.input.1.ramp_s = -1: allowed: a number, 0 <= value <= 86400"),
+        ("value = -0.2", "value = inf", "vehicle.input.0.value = inf: allowed: a finite number"),
+        ('property = "fcs/aileron-cmd-norm"', "", "vehicle.input.1.property: missing"),
+    ],
+)
+def test_each_number_is_checked(refused: Refused, old: str, new: str, mistake: str) -> None:
+    assert refused(AIRCRAFT.replace(old, new, 1)) == [f"bad.toml: {mistake}"]
