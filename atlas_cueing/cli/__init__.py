@@ -1,1 +1,84 @@
-""""""
+"""The command `atlas-cueing`.
+
+Exit status: 0 done and clean; 1 the run or the platform has a finding, and whatever was recorded is kept; 2 bad input or
+usage, and nothing was written. Results go to stdout, everything else to stderr.
+"""
+
+import logging
+import sys
+import traceback
+from collections.abc import Sequence
+from typing import Annotated
+
+import typer
+
+from ..errors import AtlasError, InputError
+from .platform import EPILOG as PLATFORM_EPILOG
+from .platform import platform
+from .run import EPILOG as RUN_EPILOG
+from .run import run
+
+app = typer.Typer(
+    help="Washout-free motion cueing: a flight becomes wheel velocity profiles of a sphere that turns without bound.",
+    epilog="Example: atlas-cueing run scenarios/c172_elevator_doublet.toml",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    add_completion=False,
+    rich_markup_mode=None,
+)
+# Without a handler Python would print JSBSim's warnings to stderr among ours.
+logging.getLogger("atlas_cueing").addHandler(logging.NullHandler())
+
+app.command(epilog=RUN_EPILOG)(run)
+app.command(epilog=PLATFORM_EPILOG)(platform)
+
+
+def _show_version(asked: bool) -> None:
+    if asked:
+        from .. import __version__
+
+        typer.echo(f"atlas-cueing {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    _version: Annotated[
+        bool, typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version.")
+    ] = False,
+    debug: Annotated[
+        bool, typer.Option("--debug", help="Show JSBSim's own messages, and where in the program an unexpected error arose.")
+    ] = False,
+) -> None:
+    """Options before the command."""
+    if debug:
+        logging.basicConfig(level=logging.DEBUG, stream=sys.stderr, format="%(levelname)s %(name)s: %(message)s")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command with `arguments` (the process's own by default); gives the exit status."""
+    texts = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        app(args=texts, prog_name="atlas-cueing")
+    except SystemExit as end:
+        return end.code if isinstance(end.code, int) else 1
+    except InputError as error:
+        return _fail(str(error), 2)
+    except AtlasError as error:
+        return _fail(str(error), 1)
+    except Exception as error:  # noqa: BLE001 - a user must never see a traceback that was not asked for
+        return _unexpected(error, "--debug" in texts)
+    return 0
+
+
+def _unexpected(error: Exception, debug: bool) -> int:
+    if debug:
+        traceback.print_exception(error)
+    hint = "" if debug else "; with 'atlas-cueing --debug ...' it shows where"
+    return _fail(f"unexpected {type(error).__name__}: {error}. This is a bug, please report it{hint}", 1)
+
+
+def _fail(message: str, status: int) -> int:
+    for line in message.splitlines():
+        typer.echo(f"error: {line}", err=True)
+    return status

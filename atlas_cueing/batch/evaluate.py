@@ -1,0 +1,32 @@
+"""The figures of a finished log, from the log alone."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..errors import LogError
+from ..evaluation import Flight, consistency, limit_use, metrics, violations
+from ..recording import read_log
+from ..scenario import Platform
+
+
+@dataclass(frozen=True, slots=True)
+class Evaluation:
+    """Metrics and limit use as `evaluation` names them, and one line for each violation."""
+
+    metrics: dict[str, float] = field(default_factory=dict)
+    limit_use: dict[str, float] = field(default_factory=dict)
+    violations: tuple[str, ...] = ()
+
+
+def evaluate(log: Path, platform: Platform) -> Evaluation:
+    """Read the log and compute everything; a log that cannot be read back is itself a violation."""
+    try:
+        flight = Flight.of(read_log(log))
+    except LogError as error:
+        return Evaluation(violations=(f"not evaluated: {error}",))
+    geometry = platform.geometry()
+    use = limit_use(flight, platform.wheel_speed_limits(), platform.stage_motion_limits())
+    figures = metrics(flight)
+    if geometry.slip_free:
+        figures |= consistency(flight, geometry.wheels_from_sphere, geometry.sphere_from_wheels)
+    return Evaluation(figures, use, tuple(violations(use)))

@@ -1,0 +1,33 @@
+"""How far a run is, on stderr, when someone is looking."""
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from time import perf_counter
+
+_SHORT = 1.0  # s; a run that is over by then shows nothing
+
+
+@contextmanager
+def shown_progress(name: str, duration: float | None) -> Iterator[Callable[[float], None] | None]:
+    """A function to call with the flight time (s), or None when stderr is no terminal.
+
+    `duration` is that of the flight in s, None when only the vehicle knows its end.
+    """
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = [TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[flown]}"), TimeRemainingColumn()]
+    begun = perf_counter()
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(name, total=duration, flown="", visible=False)
+
+        def progress(time: float) -> None:
+            wall = perf_counter() - begun
+            flown = f"{time:.0f} s flown, {time / wall:.1f} times real time"
+            bar.update(task, completed=time, flown=flown, visible=wall > _SHORT)
+
+        yield progress

@@ -1,0 +1,25 @@
+"""Numbers as text, for people and for programs."""
+
+import json
+from collections.abc import Mapping, Sequence
+from math import isfinite
+from typing import Any
+
+
+def one_json(figures: Mapping[str, Any]) -> str:
+    """One JSON object; a number that is not finite is null, as JSON has no other word for it."""
+    return json.dumps(_plain(figures), allow_nan=False, indent=2)
+
+
+def aligned(rows: Sequence[tuple[str, str]], indent: str = "  ") -> list[str]:
+    """Lines of name and value, the values under each other."""
+    width = max((len(name) for name, _ in rows), default=0)
+    return [f"{indent}{name:<{width}}  {value}".rstrip() for name, value in rows]
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {key: _plain(inner) for key, inner in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(inner) for inner in value]
+    return None if isinstance(value, float) and not isfinite(value) else value

@@ -1,0 +1,22 @@
+"""The architecture in four lines."""
+
+from dataclasses import dataclass
+
+from .cueing import Cueing
+from .signals import Tick, VehicleState, WheelDrive
+from .smoothing import Smoothing
+
+
+@dataclass(frozen=True, slots=True)
+class Pipeline:
+    """One flight's chain from vehicle to wheels; cueing and smoothing hold the state, so use a new one for each flight."""
+
+    cueing: Cueing
+    smoothing: Smoothing
+    wheels: WheelDrive
+
+    def step(self, vehicle: VehicleState) -> Tick:
+        """What the platform asks, is allowed and does for one vehicle state; states come in order, one step apart."""
+        cue = self.cueing.step(vehicle)
+        motion = self.smoothing.step(cue)
+        return Tick(vehicle, cue, motion, self.wheels.speeds(motion))

@@ -1,0 +1,120 @@
+"""What all commands have in common: usage, versions, errors without tracebacks."""
+
+import logging
+import os
+import signal
+import subprocess
+import sys
+import time
+from importlib.metadata import entry_points, version
+from pathlib import Path
+
+import pytest
+
+from atlas_cueing import batch
+from atlas_cueing.cli import main
+from atlas_cueing.errors import InputError, LogError
+
+from .conftest import SCRIPT, Command
+
+START = [sys.executable, "-c", "import sys; from atlas_cueing.cli import main; sys.exit(main())"]
+
+
+def test_the_installed_command_is_this_one() -> None:
+    (script,) = entry_points(group="console_scripts", name="atlas-cueing")
+    assert script.load() is main
+
+
+def test_version(command: Command) -> None:
+    ended = command("--version")
+    assert (ended.status, ended.out, ended.err) == (0, f"atlas-cueing {version('atlas_cueing')}\n", "")
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["run", "--help"], ["platform", "--help"]])
+def test_help_has_examples(command: Command, arguments: list[str]) -> None:
+    ended = command(*arguments)
+    assert (ended.status, ended.err) == (0, "")
+    assert "Example" in ended.out
+    assert "atlas-cueing " + (arguments[0] if len(arguments) > 1 else "run") in ended.out
+
+
+def test_help_loads_neither_simulator_nor_numbers() -> None:
+    """That is what makes it fast."""
+    code = (
+        "import sys; from atlas_cueing.cli import main; main(['run', '--help']); print(*sorted(sys.modules), file=sys.stderr)"
+    )
+    modules = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stderr.split()
+    assert "atlas_cueing.cli.run" in modules
+    assert not {"jsbsim", "numpy", "scipy", "ruckig", "mcap"} & set(modules)
+
+
+@pytest.mark.parametrize("arguments", [["fly"], ["run"], ["run", "a.toml", "b.toml"], ["run", "s.toml", "--fast"], ["--json"]])
+def test_wrong_usage(command: Command, tmp_path: Path, arguments: list[str]) -> None:
+    ended = command(*arguments)
+    assert (ended.status, ended.out) == (2, "")
+    assert "Usage: atlas-cueing" in ended.err
+    assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]
+
+
+def test_no_arguments_show_the_help(command: Command) -> None:
+    ended = command()
+    assert ended.status == 2
+    assert "Commands:" in ended.out + ended.err
+
+
+@pytest.mark.parametrize(("error", "status"), [(InputError("wrong"), 2), (LogError("wrong"), 1)])
+def test_errors_of_ours(command: Command, monkeypatch: pytest.MonkeyPatch, error: Exception, status: int) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise error
+
+    monkeypatch.setattr(batch, "check_output", fail)
+    ended = command("run", "s.toml")
+    assert (ended.status, ended.out, ended.err) == (status, "", "error: wrong\n")
+
+
+def test_errors_that_nobody_expected(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise ZeroDivisionError("oops")
+
+    monkeypatch.setattr(batch, "check_output", fail)
+    ended = command("run", "s.toml")
+    assert (ended.status, ended.out) == (1, "")
+    assert ended.err.count("\n") == 1
+    assert ended.err.startswith("error: unexpected ZeroDivisionError: oops. This is a bug")
+    ended = command("--debug", "run", "s.toml")
+    assert ended.status == 1
+    assert "Traceback" in ended.err
+
+
+def test_debug_shows_the_log(tmp_path: Path) -> None:
+    (tmp_path / "s.toml").write_text(SCRIPT)
+    ended = subprocess.run(
+        [*START, "--debug", "run", "s.toml", "--json"], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    assert "atlas_cueing.jsbsim" in ended.stderr
+    assert ended.stdout.startswith("{")
+
+
+def test_main_adds_no_output_of_its_own_to_the_log(command: Command) -> None:
+    command("--version")
+    handlers = logging.getLogger("atlas_cueing").handlers
+    assert [type(handler) for handler in handlers] == [logging.NullHandler]
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_a_run_with_a_finished_log(tmp_path: Path, number: signal.Signals) -> None:
+    (tmp_path / "s.toml").write_text(SCRIPT.replace("0.45", "3600.0").replace("c1722", "ball"))
+    process = subprocess.Popen(
+        [*START, "run", "s.toml", "--json"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    part = tmp_path / "short.mcap.part"
+    deadline = time.monotonic() + 60.0
+    while time.monotonic() < deadline and not (part.exists() and part.stat().st_size > 100_000):
+        time.sleep(0.02)
+    os.kill(process.pid, number)
+    out, err = process.communicate(timeout=60.0)
+    assert process.returncode == 1
+    assert '"result": "interrupted"' in out
+    assert err.startswith("interrupted: asked to stop at ")
+    assert (tmp_path / "short.mcap").exists()
+    assert not part.exists()
