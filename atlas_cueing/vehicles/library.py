@@ -1,0 +1,39 @@
+"""What JSBSim ships: scripts and aircraft by name."""
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+from functools import cache
+from pathlib import Path
+
+import jsbsim
+
+
+def root() -> Path:
+    """Folder of JSBSim's aircraft, engines, systems and scripts."""
+    return Path(jsbsim.get_default_root_dir())
+
+
+@cache
+def own_scripts() -> dict[str, Path]:
+    """JSBSim's own scripts: name to file. Some of them end badly, and three do not load."""
+    return {path.stem: path for path in sorted((root() / "scripts").glob("*.xml"))}
+
+
+@cache
+def own_aircraft() -> dict[str, Path]:
+    """JSBSim's own aircraft: name to the file of the model."""
+    folders = sorted((root() / "aircraft").iterdir())
+    models = {folder.name: folder / f"{folder.name}.xml" for folder in folders}
+    return {name: model for name, model in models.items() if model.is_file()}
+
+
+def suggestion(name: str, known: Iterable[str]) -> str:
+    """`; did you mean 'x'?` with the nearest of the known names, or nothing when none is near."""
+    near = get_close_matches(name, known, n=1, cutoff=0.5)
+    return f"; did you mean {near[0]!r}?" if near else ""
+
+
+def writable_names(fdm: jsbsim.FGFDMExec) -> list[str]:
+    """Names of the loaded model's properties that can be set, without their index when it is 0."""
+    entries = (entry.rsplit(" ", 1) for entry in fdm.get_property_catalog())
+    return [name.removesuffix("[0]") for name, access in entries if "W" in access]

@@ -1,0 +1,109 @@
+"""A JSBSim instance with a script or an aircraft loaded, or an InputError that says why not."""
+
+from collections.abc import Callable
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from xml.etree.ElementTree import Element
+
+import jsbsim
+
+from ..errors import InputError
+from .flights import DEFAULT_RATE_HZ, MAX_RATE_HZ, MIN_RATE_HZ, AircraftFlight, ScriptFlight
+from .jsbsim_log import JsbsimLog, capture
+from .library import own_aircraft, root, suggestion, writable_names
+from .private_copy import copy_aircraft, copy_script
+
+# What JSBSim's C++ exceptions become in Python; its own jsbsim.BaseError is a RuntimeError.
+JSBSIM_ERRORS = (RuntimeError, ValueError, IndexError, ArithmeticError, MemoryError, OSError)
+_WRITERS = ("simulation/do_linearization", "simulation/write-state-file")  # setting them writes a file
+_OUTPUT = "simulation/output/"  # properties of the outputs that were left out; scripts may go on setting them
+_SILENT = 0  # debug level: no reports on what was loaded
+
+
+def load(flight: ScriptFlight | AircraftFlight) -> jsbsim.FGFDMExec:
+    """Load what the flight asks for into a new instance (a used one is not bitwise the same), with its step set.
+
+    Raises InputError when it does not load or the step is out of bounds.
+    """
+    log = capture()
+    rate_hz = flight.rate_hz
+    with TemporaryDirectory(prefix="atlas_cueing_") as folder:
+        fdm = jsbsim.FGFDMExec(str(root()))
+        fdm.set_debug_level(_SILENT)
+        fdm.set_aircraft_path(str(Path(folder) / "aircraft"))
+        if isinstance(flight, ScriptFlight):
+            _load_script(fdm, flight.script, Path(folder), log)
+        else:
+            _load_aircraft(fdm, flight.aircraft, Path(folder), log)
+            rate_hz = DEFAULT_RATE_HZ if rate_hz is None else rate_hz
+    _disarm(fdm)
+    if rate_hz is not None:
+        fdm.set_dt(1.0 / _checked(rate_hz))
+    return fdm
+
+
+def _load_script(fdm: jsbsim.FGFDMExec, script: Path, folder: Path, log: JsbsimLog) -> None:
+    tree, copy = copy_script(script, folder)
+    for run in tree.iter("run"):
+        _check_step(run.get("dt", ""), script)
+    _try(lambda: fdm.load_script(str(copy)), str(script), {str(copy): str(script), str(folder): str(root())}, log)
+    _check_names(tree, script, fdm)
+
+
+def _load_aircraft(fdm: jsbsim.FGFDMExec, aircraft: str, folder: Path, log: JsbsimLog) -> None:
+    if aircraft not in own_aircraft():
+        raise InputError(f"no aircraft {aircraft!r} in JSBSim{suggestion(aircraft, own_aircraft())}")
+    copy_aircraft(aircraft, folder)
+    _try(lambda: fdm.load_model(aircraft), f"aircraft {aircraft!r}", {str(folder): str(root())}, log)
+
+
+def _try(load: Callable[[], bool], what: str, originals: dict[str, str], log: JsbsimLog) -> None:
+    """Load, or say why not, with the names of the original files in place of the copies."""
+    try:
+        complaint = "" if load() else log.complaint or "no reason given"
+    except JSBSIM_ERRORS as error:
+        complaint = one_line(error)
+    for copy, original in originals.items():
+        complaint = complaint.replace(copy, original)
+    if complaint:
+        raise InputError(f"{what}: JSBSim cannot load it: {complaint}")
+
+
+def _disarm(fdm: jsbsim.FGFDMExec) -> None:
+    """Make JSBSim ignore what would write a file into the working directory."""
+    for name in _WRITERS:
+        node = fdm.get_property_manager().get_node(name)
+        if node:
+            node.set_attribute(jsbsim.Attribute.WRITE, False)
+
+
+def _check_step(dt: str, script: Path) -> None:
+    """Refuse a step out of bounds before JSBSim sees it: a negative one kills the process. What is no number it refuses."""
+    try:
+        step = float(dt)
+    except ValueError:
+        return
+    if not 1.0 / MAX_RATE_HZ <= step <= 1.0 / MIN_RATE_HZ:
+        raise InputError(f"{script}: dt = {dt} s, allowed: {1.0 / MAX_RATE_HZ:g} <= dt <= {1.0 / MIN_RATE_HZ:g}")
+
+
+def _check_names(tree: Element, script: Path, fdm: jsbsim.FGFDMExec) -> None:
+    """Refuse a script that sets a property which nothing defines: JSBSim would stop there in mid-run."""
+    manager = fdm.get_property_manager()
+    for name in sorted({element.get("name", "").strip() for element in tree.iter("set")}):
+        if name.startswith(_OUTPUT):
+            manager.get_node(name, create=True)
+        elif not manager.hasNode(name):
+            raise InputError(f"{script}: unknown JSBSim property {name!r}{suggestion(name, writable_names(fdm))}")
+
+
+def _checked(rate_hz: float) -> float:
+    """A rate inside its bounds: JSBSim itself takes a step of 0, below 0 or NaN."""
+    if not MIN_RATE_HZ <= rate_hz <= MAX_RATE_HZ:
+        raise InputError(f"rate {rate_hz:g} Hz, allowed: {MIN_RATE_HZ:g} <= rate_hz <= {MAX_RATE_HZ:g}")
+    return rate_hz
+
+
+def one_line(error: BaseException) -> str:
+    """An exception's text on one line."""
+    return " ".join(str(error).split())
