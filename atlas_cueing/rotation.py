@@ -57,7 +57,9 @@ def norm(v: Vec3) -> float:
 
 def apply(m: Mat3, v: Vec3) -> Vec3:
     """Matrix (three rows) times column vector."""
-    return (dot(m[0], v), dot(m[1], v), dot(m[2], v))
+    (a, b, c), (d, e, f), (g, h, i) = m
+    x, y, z = v
+    return (a * x + b * y + c * z, d * x + e * y + f * z, g * x + h * y + i * z)
 
 
 def multiply(p: Quat, q: Quat) -> Quat:
@@ -75,6 +77,18 @@ def multiply(p: Quat, q: Quat) -> Quat:
 def conjugate(q: Quat) -> Quat:
     """Inverse of a unit quaternion: `conjugate(q_AB) = q_BA`."""
     return (q[0], -q[1], -q[2], -q[3])
+
+
+def difference(q_AB: Quat, q_AC: Quat) -> Quat:
+    """The turn seen from A that takes B's orientation into C's: q_AC q_AB*."""
+    a, b, c, d = q_AC
+    w, x, y, z = q_AB
+    return (
+        a * w + b * x + c * y + d * z,
+        b * w - a * x + d * y - c * z,
+        c * w - a * y + b * z - d * x,
+        d * w - a * z + c * x - b * y,
+    )
 
 
 def normalise(q: Quat) -> Quat:

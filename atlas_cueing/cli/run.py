@@ -8,7 +8,7 @@ import typer
 EPILOG = """
 Examples:
 
-  atlas-cueing run scenarios/f16_aileron_rolls.toml
+  atlas-cueing run scenarios/f16_rolls.toml
 
   atlas-cueing run scenarios/c172_elevator_doublet.toml -o doublet.mcap --set cueing.method=attitude
 

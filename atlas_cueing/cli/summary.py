@@ -1,5 +1,7 @@
 """What is printed about a run and about a platform."""
 
+from collections.abc import Mapping
+from math import degrees
 from typing import Any
 
 from ..batch import RunResult
@@ -8,20 +10,69 @@ from ..scenario import Platform
 from ..wheels import headroom
 from .text import aligned
 
+# Rows of the table: title, metric, unit of the metric, unit shown, factor.
+_FELT = (
+    ("specific force", "force", "m_s2", "m/s2", 1.0),
+    ("force direction", "direction", "rad", "deg", degrees(1.0)),
+    ("angular rate", "rate", "rad_s", "deg/s", degrees(1.0)),
+    ("attitude", "attitude", "rad", "deg", degrees(1.0)),
+)
+_STATISTICS = ("rms", "p95", "max")
+_LIMITS = ("wheel_speed", "wheel_acceleration", "wheel_jerk", "stage_travel", "stage_speed", "stage_acceleration", "stage_jerk")
+
 
 def run_summary(result: RunResult) -> str:
-    """Result, metrics and limit use of a run, for people."""
+    """Result, what was felt, and the use of the limits, for people; `--json` has every figure."""
+    metrics = result.evaluation.metrics
+    return "\n".join(
+        [
+            *aligned(_head(result), ""),
+            *_felt_table(metrics),
+            *aligned(_motion_rows(metrics), ""),
+            *aligned(_limit_rows(result.evaluation.limit_use), ""),
+        ]
+    )
+
+
+def _head(result: RunResult) -> list[tuple[str, str]]:
     speed = result.duration / result.wall if result.wall > 0.0 else 0.0
-    head = [
+    return [
         ("result", f"{result.result}  {result.reason}".rstrip()),
         ("log", str(result.log)),
-        ("ticks", str(result.ticks)),
-        ("duration", f"{result.duration:.2f} s, flown at {speed:.1f} times real time"),
+        ("flight", f"{result.duration:.2f} s, {result.ticks} ticks, flown at {speed:.1f} times real time"),
         ("violations", str(len(result.evaluation.violations))),
     ]
-    metrics = [(name, f"{value:.6g}") for name, value in result.evaluation.metrics.items()]
-    use = [(name, f"{100.0 * value:.4f} %") for name, value in result.evaluation.limit_use.items()]
-    return "\n".join([*aligned(head, ""), "metrics", *aligned(metrics), "largest use of each limit", *aligned(use)])
+
+
+def _felt_table(metrics: Mapping[str, float]) -> list[str]:
+    """Felt by the rider less felt by the pilot: one line a quantity, one column a statistic; unknown ones are left out."""
+    lines = [
+        f"{title:<17}{unit:<6}" + "".join(_cell(metrics, name, s, suffix, k) for s in _STATISTICS)
+        for title, name, suffix, unit, k in _FELT
+        if f"{name}_rms_{suffix}" in metrics
+    ]
+    head = f"{'rider less pilot':<23}" + "".join(f"{statistic:>10}" for statistic in _STATISTICS)
+    return [head, *lines] if lines else []
+
+
+def _cell(metrics: Mapping[str, float], name: str, statistic: str, suffix: str, factor: float) -> str:
+    value = metrics.get(f"{name}_{statistic}_{suffix}")
+    return f"{'-':>10}" if value is None else f"{factor * value:>10.3f}"
+
+
+def _motion_rows(metrics: Mapping[str, float]) -> list[tuple[str, str]]:
+    if "cue_lag_max_rad" not in metrics:
+        return []
+    turns = ", ".join(f"{axis} {metrics[f'turns_{axis}']:+.2f}" for axis in ("roll", "pitch", "yaw"))
+    lag = f"at most {degrees(metrics['cue_lag_max_rad']):.3f} deg, {1e3 * metrics['cue_lag_max_m']:.2f} mm"
+    limited = f"wheels {metrics['wheels_limited_share']:.2%}, stage {metrics['stage_limited_share']:.2%} of the time"
+    return [("net turns", turns), ("lag behind cue", lag), ("limited", limited)]
+
+
+def _limit_rows(use: Mapping[str, float]) -> list[tuple[str, str]]:
+    """Largest use of each limit, by logged values or their differences, whichever is larger."""
+    most = {limit: max((u for name, u in use.items() if name.startswith(limit)), default=None) for limit in _LIMITS}
+    return [(f"{limit.replace('_', ' ')}", f"{100.0 * u:.4f} % of its limit") for limit, u in most.items() if u is not None]
 
 
 def kinematics(platform: Platform) -> dict[str, Any]:

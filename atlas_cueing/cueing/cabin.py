@@ -17,7 +17,7 @@ from ..rotation import (
     to_euler,
 )
 from ..signals import VehicleState
-from .damping import critically_damped
+from .damping import CriticalDamping
 from .parameters import SlowTurnParameters
 
 
@@ -30,16 +30,16 @@ class SlowTurn:
 
     def __init__(self, dt: float, parameters: SlowTurnParameters) -> None:
         """Start at rest; dt in s."""
-        self._dt, self._rate, self._time = dt, parameters.rate, parameters.time
-        self._omega = 1.0 / parameters.smoothing
+        self._rate, self._time = parameters.rate, parameters.time
+        self._damping = CriticalDamping(1.0 / parameters.smoothing, dt)
         self._w, self._alpha = ZERO, ZERO
 
     def step(self, error: Vec3) -> Vec3:
         """Rate after one tick (rad/s), for the rotation vector `error` (rad) still to go."""
         size = norm(error)
         wish = scale(min(1.0 / self._time, self._rate / size) if size > 0.0 else 0.0, error)
-        each = zip(self._w, self._alpha, wish, strict=True)
-        (x, ax), (y, ay), (z, az) = (critically_damped(w, a, to, self._omega, self._dt) for w, a, to in each)
+        (x, y, z), (ax, ay, az), step = self._w, self._alpha, self._damping.step
+        (x, ax), (y, ay), (z, az) = step(x, ax, wish[0]), step(y, ay, wish[1]), step(z, az, wish[2])
         self._w, self._alpha = (x, y, z), (ax, ay, az)
         return self._w
 

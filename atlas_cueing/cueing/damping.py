@@ -3,12 +3,20 @@
 from math import exp
 
 
-def critically_damped(x: float, v: float, target: float, omega: float, dt: float) -> tuple[float, float]:
-    """State (x, x') after dt s of x'' = omega^2 (target - x) - 2 omega x', exact for a constant target.
+class CriticalDamping:
+    """x'' = omega^2 (target - x) - 2 omega x', stepped exactly for a target that is constant over each step.
 
     The kernel omega^2 t exp(-omega t) is positive and of unit area, so x never leaves the convex hull of its targets, and
     |x'| is at most omega / e times the width of that hull.
     """
-    z = x - target
-    decay = exp(-omega * dt)
-    return target + decay * (z + (v + omega * z) * dt), decay * (v - omega * (v + omega * z) * dt)
+
+    def __init__(self, omega: float, dt: float) -> None:
+        """Natural frequency omega in rad/s; dt in s."""
+        decay = exp(-omega * dt)
+        self._x_from_z, self._x_from_v = decay * (1.0 + omega * dt), decay * dt
+        self._v_from_z, self._v_from_v = -decay * omega * omega * dt, decay * (1.0 - omega * dt)
+
+    def step(self, x: float, v: float, target: float) -> tuple[float, float]:
+        """State (x, x') after one step."""
+        z = x - target
+        return target + self._x_from_z * z + self._x_from_v * v, self._v_from_z * z + self._v_from_v * v

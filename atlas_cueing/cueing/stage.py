@@ -14,7 +14,7 @@ from math import exp, pi, tanh
 
 from ..rotation import ZERO, Quat, Vec3, add, cross, flip, rotate, scale, subtract
 from ..signals import STANDARD_GRAVITY, StageLimits
-from .damping import critically_damped
+from .damping import CriticalDamping
 from .parameters import StageParameters
 
 _GRAVITY_W: Vec3 = (0.0, 0.0, -STANDARD_GRAVITY)
@@ -26,7 +26,8 @@ class OnsetFilter:
 
     def __init__(self, dt: float, parameters: StageParameters, bound: float) -> None:
         """`bound` is A, m/s^2; dt in s."""
-        self._dt, self._omega, self._bound = dt, parameters.onset, bound
+        self._omega, self._bound = parameters.onset, bound
+        self._braking = CriticalDamping(parameters.onset, dt)
         self._pass = 1.0 - exp(-2.0 * pi * parameters.bandwidth * dt)
         self._drain = 1.0 - exp(-parameters.recentre * dt)
         self._demand = self._lasting = self._p = self._v = self._u = 0.0
@@ -42,9 +43,8 @@ class OnsetFilter:
         self._lasting += self._drain * (self._demand - self._lasting)
         before, self._u = self._u, self._demand - self._lasting
         omega = self._omega
-        rest = 0.5 * (before + self._u) / omega**2
-        self._p, self._v = critically_damped(self._p, self._v, rest, omega, self._dt)
-        return self._p, self._v, self._u - 2.0 * omega * self._v - omega**2 * self._p
+        self._p, self._v = self._braking.step(self._p, self._v, 0.5 * (before + self._u) / (omega * omega))
+        return self._p, self._v, self._u - omega * (2.0 * self._v + omega * self._p)
 
 
 class StageCueing:
@@ -62,7 +62,8 @@ class StageCueing:
         """Position (m), velocity (m/s) and acceleration (m/s^2) in W."""
         wanted = add(rotate(q_WS, flip(f_B)), _GRAVITY_W)
         lacking = subtract(wanted, self._turning(q_WS, w_WS_W))
-        x, y, z = (axis.step(gain * d) for axis, gain, d in zip(self._axes, self._gain, lacking, strict=True))
+        (one, two, three), gain = self._axes, self._gain
+        x, y, z = one.step(gain[0] * lacking[0]), two.step(gain[1] * lacking[1]), three.step(gain[2] * lacking[2])
         return (x[0], y[0], z[0]), (x[1], y[1], z[1]), (x[2], y[2], z[2])
 
     def _turning(self, q_WS: Quat, w_WS_W: Vec3) -> Vec3:

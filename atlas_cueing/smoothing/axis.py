@@ -47,6 +47,7 @@ class Axis:
             raise ValueError(f"0 < dt, acceleration, jerk and jerk dt^2 / 8 < speed; got {dt}, {acceleration}, {jerk}, {speed}")
         self.dt = dt
         self.speed, self.acceleration, self.jerk = ((1.0 - _ROUNDING) * x for x in (speed - bend, acceleration, jerk))
+        self._cruise = self.speed - 0.5 * self.acceleration**2 / self.jerk  # below it every acceleration is fine
         self._generator, self._input, self._trajectory = Ruckig(1, dt), InputParameter(1), Trajectory(1)
         self._input.control_interface = ControlInterface.Velocity
         self._input.current_position = [0.0]
@@ -56,6 +57,8 @@ class Axis:
 
     def clip(self, v: float, a: float) -> tuple[float, float]:
         """Nearest target from which the axis can stay inside its speed limit, before and after: |v| + a^2 / 2J <= V."""
+        if -self._cruise < v < self._cruise and -self.acceleration <= a <= self.acceleration:
+            return v, a
         v = min(max(v, -self.speed), self.speed)
         a_max = min(self.acceleration, sqrt(2.0 * self.jerk * (self.speed - abs(v))))
         return v, min(max(a, -a_max), a_max)
@@ -72,8 +75,8 @@ class Axis:
     def _reach(self, v: float, a: float, v1: float, a1: float) -> Step | None:
         """The step of two halves to (v1, a1), if it is inside the limits."""
         h = self.dt
-        gained, missing = 2.0 * (a1 - a) / h, 8.0 * (v1 - v - a * h) / (h * h)
-        j1, j2 = 0.5 * (missing - gained), 0.5 * (3.0 * gained - missing)
+        gained, missing = (a1 - a) / h, 4.0 * (v1 - v - a * h) / (h * h)
+        j1, j2 = missing - gained, 3.0 * gained - missing
         if not (-self.jerk <= j1 <= self.jerk and -self.jerk <= j2 <= self.jerk):
             return None
         if not -self.acceleration <= a + 0.5 * j1 * h <= self.acceleration:

@@ -20,11 +20,10 @@ from ..rotation import (
     Vec3,
     add,
     apply,
-    conjugate,
     continuous,
+    difference,
     integrate_base,
     log_unwound,
-    multiply,
     norm,
     normalise,
     scale,
@@ -51,51 +50,53 @@ class SphereSmoothing:
         self._axes = [Axis(dt, *limit) for limit in zip(limits.speed, limits.acceleration, limits.jerk, strict=True)]
         self._braking, self._braking_jerk = self._reserve(limits.acceleration), self._reserve(limits.jerk)
         self._speed, self._acceleration = ZERO, ZERO
-        self._left, self._w_cue = IDENTITY, ZERO
+        self._left, self._cue_speed = IDENTITY, ZERO
         self.q_WS, self.w_WS_W, self.alpha_WS_W = IDENTITY, ZERO, ZERO
 
     def start(self, cue: Cue) -> None:
         """Begin at rest in the cue's orientation."""
-        self.q_WS, self._w_cue = normalise(cue.q_WS), cue.w_WS_W
+        self.q_WS, self._cue_speed = normalise(cue.q_WS), apply(self._wheels_from_sphere, cue.w_WS_W)
 
     def step(self, cue: Cue) -> bool:
         """Follow the cue for one tick; whether the wheels gave it. Raises PlanningError and stays where it is."""
         to_go = self._to_go(cue)
-        speed, acceleration = self._demand(cue, to_go)
-        now, wish = zip(self._speed, self._acceleration, strict=True), zip(speed, acceleration, strict=True)
-        x, y, z = (axis.towards(*at, *to) for axis, at, to in zip(self._axes, now, wish, strict=True))
+        angle = norm(to_go)
+        (u1, u2, u3), (a1, a2, a3) = self._demand(cue, to_go, angle)
+        (one, two, three), speed, acceleration = self._axes, self._speed, self._acceleration
+        x = one.towards(speed[0], acceleration[0], u1, a1)
+        y = two.towards(speed[1], acceleration[1], u2, a2)
+        z = three.towards(speed[2], acceleration[2], u3, a3)
         self._fly(x, y, z)
-        return x.met and y.met and z.met and norm(to_go) <= _MET_ANGLE
+        return x.met and y.met and z.met and angle <= _MET_ANGLE
 
     def stop(self) -> None:
         """Follow the certified stop for one tick."""
         x, y, z = (axis.stopping(v, a) for axis, v, a in zip(self._axes, self._speed, self._acceleration, strict=True))
         self._fly(x, y, z)
-        self._w_cue = self.w_WS_W
+        self._cue_speed = self._speed
 
     def _to_go(self, cue: Cue) -> Vec3:
-        """Rotation vector (W) that would be left at the end of the tick if the sphere took the cue's rate.
+        """Rotation vector (W) that would be left at the end of the tick if the sphere took the cue's rate (trapezoid).
 
         By the shorter way, but a catch-up under way is not turned round by a cue that wanders past half a turn.
         """
-        turn = scale(0.5 * self._dt, add(self.w_WS_W, cue.w_WS_W))
-        ahead = integrate_base(self.q_WS, turn, self.w_WS_W, cue.w_WS_W, self._dt)
-        self._left = continuous(multiply(cue.q_WS, conjugate(ahead)), self._left)
+        self._left = continuous(difference(self.q_WS, cue.q_WS), self._left)
         to_go = log_unwound(self._left)
         if norm(to_go) > pi + _OTHER_WAY:
             w, x, y, z = self._left
             self._left = (-w, -x, -y, -z)
             to_go = log_unwound(self._left)
-        return to_go
+        return subtract(to_go, scale(0.5 * self._dt, add(self.w_WS_W, cue.w_WS_W)))
 
-    def _demand(self, cue: Cue, to_go: Vec3) -> tuple[Vec3, Vec3]:
-        """Wheel speeds and accelerations asked for at the end of the tick."""
-        angle = norm(to_go)
-        direction = scale(1.0 / angle, apply(self._wheels_from_sphere, to_go)) if angle > _NO_ANGLE else ZERO
-        closing, slope = approach(angle, _GAIN, self._braking, self._braking_jerk)
+    def _demand(self, cue: Cue, to_go: Vec3, angle: float) -> tuple[Vec3, Vec3]:
+        """Wheel speeds and accelerations asked for at the end of the tick; the cue's acceleration is its last difference."""
         speed = apply(self._wheels_from_sphere, cue.w_WS_W)
-        acceleration = apply(self._wheels_from_sphere, scale(1.0 / self._dt, subtract(cue.w_WS_W, self._w_cue)))
-        self._w_cue = cue.w_WS_W
+        acceleration = scale(1.0 / self._dt, subtract(speed, self._cue_speed))
+        self._cue_speed = speed
+        if angle <= _NO_ANGLE:
+            return speed, acceleration
+        direction = scale(1.0 / angle, apply(self._wheels_from_sphere, to_go))
+        closing, slope = approach(angle, _GAIN, self._braking, self._braking_jerk)
         spare = self._spare(speed, direction)
         closing, slope = (closing, slope) if closing < spare else (spare, 0.0)
         return add(speed, scale(closing, direction)), subtract(acceleration, scale(slope * closing, direction))
@@ -104,9 +105,11 @@ class SphereSmoothing:
         """Largest closing rate (rad/s) that keeps each wheel, busy with the cue already, inside its speed."""
         spare = inf
         for axis, busy, d in zip(self._axes, wheels, direction, strict=True):
-            if d:
-                spare = min(spare, max(axis.speed - (busy if d > 0.0 else -busy), 0.0) / abs(d))
-        return spare
+            if d > 0.0:
+                spare = min(spare, (axis.speed - busy) / d)
+            elif d < 0.0:
+                spare = min(spare, (axis.speed + busy) / -d)
+        return max(spare, 0.0)
 
     def _fly(self, x: Step, y: Step, z: Step) -> None:
         """Take the steps of the three wheels and integrate the orientation from them (Eq. 16, 19, 20).

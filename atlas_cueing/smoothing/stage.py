@@ -78,9 +78,9 @@ class StageSmoothing:
 
     def step(self, cue: Cue) -> bool:
         """Follow the cue for one tick; whether all of it was given. Any cue is safe."""
-        each = zip(self._axes, cue.p_WS_W, cue.v_WS_W, cue.a_WS_W, strict=True)
-        met = [axis.step(p, v, a) for axis, p, v, a in each]
-        return all(met)
+        (x, y, z), p, v, a = self._axes, cue.p_WS_W, cue.v_WS_W, cue.a_WS_W
+        met_x, met_y, met_z = x.step(p[0], v[0], a[0]), y.step(p[1], v[1], a[1]), z.step(p[2], v[2], a[2])
+        return met_x and met_y and met_z
 
     @property
     def p_WS_W(self) -> Vec3:

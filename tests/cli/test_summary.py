@@ -1,4 +1,4 @@
-from math import inf
+from math import inf, pi
 from pathlib import Path
 
 from atlas_cueing.batch import RunResult
@@ -13,7 +13,22 @@ RESULT = RunResult(
     1200,
     10.0,
     0.5,
-    Evaluation({"force_rms_m_s2": 0.123456789, "turns_roll": inf}, {"wheel_speed": 0.25}, ("too fast",)),
+    Evaluation(
+        {
+            "force_rms_m_s2": 0.123456789,
+            "force_max_m_s2": inf,
+            "direction_rms_rad": pi / 180.0,
+            "cue_lag_max_rad": pi / 1800.0,
+            "cue_lag_max_m": 0.002,
+            "wheels_limited_share": 0.25,
+            "stage_limited_share": 0.0,
+            "turns_roll": 3.5,
+            "turns_pitch": -1.0,
+            "turns_yaw": 0.0,
+        },
+        {"wheel_speed_logged": 0.25, "wheel_jerk_difference": 0.5, "wheel_jerk_second_difference": 1.0},
+        ("too fast",),
+    ),
 )
 
 
@@ -21,15 +36,23 @@ def test_run() -> None:
     assert run_summary(RESULT).splitlines() == [
         "result      vehicle_failed  it fell",
         "log         x.mcap",
-        "ticks       1200",
-        "duration    10.00 s, flown at 20.0 times real time",
+        "flight      10.00 s, 1200 ticks, flown at 20.0 times real time",
         "violations  1",
-        "metrics",
-        "  force_rms_m_s2  0.123457",
-        "  turns_roll      inf",
-        "largest use of each limit",
-        "  wheel_speed  25.0000 %",
+        "rider less pilot              rms       p95       max",
+        "specific force   m/s2       0.123         -       inf",
+        "force direction  deg        1.000         -         -",
+        "net turns       roll +3.50, pitch -1.00, yaw +0.00",
+        "lag behind cue  at most 0.100 deg, 2.00 mm",
+        "limited         wheels 25.00%, stage 0.00% of the time",
+        "wheel speed  25.0000 % of its limit",
+        "wheel jerk   100.0000 % of its limit",
     ]
+
+
+def test_run_without_figures() -> None:
+    nothing = RunResult("vehicle_failed", "no trim", Path("x.mcap"), 0, 0.0, 0.0, Evaluation())
+    assert run_summary(nothing).splitlines()[0] == "result      vehicle_failed  no trim"
+    assert len(run_summary(nothing).splitlines()) == 4
 
 
 def test_platform() -> None:
