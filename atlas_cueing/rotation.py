@@ -114,6 +114,12 @@ def rotate(q: Quat, v: Vec3) -> Vec3:
     return (a + w * tx + y * tz - z * ty, b + w * ty + z * tx - x * tz, c + w * tz + x * ty - y * tx)
 
 
+def up_in_body(q_AB: Quat) -> Vec3:
+    """A's z axis seen from B: the third row of the rotation matrix."""
+    w, x, y, z = q_AB
+    return (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y))
+
+
 def exp(phi: Vec3) -> Quat:
     """Unit quaternion of the rotation vector phi (rad)."""
     angle = norm(phi)
@@ -153,12 +159,21 @@ def integrate_base(q_AB: Quat, turn_A: Vec3, w0_A: Vec3, w1_A: Vec3, dt: float) 
     `turn_A` is the time integral of the rate over the step and `w0_A`, `w1_A` are its ends. Fourth-order Magnus
     expansion (Iserles et al., Acta Numerica 9, 2000, section 4): phi = integral + dt^2/12 (w1 x w0); exact for a constant axis.
     """
-    return multiply(exp(add(turn_A, scale(dt * dt / 12.0, cross(w1_A, w0_A)))), q_AB)
+    return multiply(exp(_magnus(turn_A, w1_A, w0_A, dt * dt / 12.0)), q_AB)
 
 
 def integrate_body(q_AB: Quat, turn_B: Vec3, w0_B: Vec3, w1_B: Vec3, dt: float) -> Quat:
     """As `integrate_base` for q' = 1/2 q o w_B, with the rate given in the BODY frame B; the commutator changes sign."""
-    return multiply(q_AB, exp(add(turn_B, scale(dt * dt / 12.0, cross(w0_B, w1_B)))))
+    return multiply(q_AB, exp(_magnus(turn_B, w0_B, w1_B, dt * dt / 12.0)))
+
+
+def _magnus(turn: Vec3, a: Vec3, b: Vec3, k: float) -> Vec3:
+    """Turn + k a x b."""
+    return (
+        turn[0] + k * (a[1] * b[2] - a[2] * b[1]),
+        turn[1] + k * (a[2] * b[0] - a[0] * b[2]),
+        turn[2] + k * (a[0] * b[1] - a[1] * b[0]),
+    )
 
 
 def from_euler(psi: float, theta: float, phi: float) -> Quat:

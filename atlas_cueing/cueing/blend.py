@@ -1,8 +1,8 @@
 """Method `blend`: the vehicle's rates at once, the direction of its specific force before long."""
 
-from math import pi
+from math import atan2, pi
 
-from ..rotation import ZERO, Quat, Vec3, angle_between, conjugate, cross, dot, flip, multiply, norm, rotate, scale, shortest_arc
+from ..rotation import ZERO, Quat, Vec3, cross, dot, flip, multiply, norm, rotate, scale, shortest_arc, up_in_body
 from ..signals import VehicleState
 from .cabin import Cabin, cabin_rate, upright
 from .parameters import BlendParameters
@@ -41,13 +41,14 @@ class BlendRotation:
 
     def _misalignment(self, q_WS: Quat, f_S: Vec3) -> Vec3:
         """Turn of the cabin (rad, S) that would bring W's up to the direction of f_S; faded out near zero force."""
-        up_S = rotate(conjugate(q_WS), _UP)
-        weight = _smoothstep(norm(f_S) / self._parameters.hold - 1.0)
-        axis = cross(f_S, up_S)
+        up_S = up_in_body(q_WS)
+        force = norm(f_S)
+        weight = _smoothstep(force / self._parameters.hold - 1.0)
+        axis, along = cross(f_S, up_S), dot(f_S, up_S)
         size = norm(axis)
-        if weight == 0.0 or size <= 1e-9 * norm(f_S):
-            return (weight * pi, 0.0, 0.0) if dot(f_S, up_S) < 0.0 else ZERO  # opposite: any axis will do, roll is taken
-        return scale(weight * angle_between(up_S, f_S) / size, axis)
+        if weight == 0.0 or size <= 1e-9 * force:
+            return (weight * pi, 0.0, 0.0) if along < 0.0 else ZERO  # opposite: any axis will do, roll is taken
+        return scale(weight * atan2(size, along) / size, axis)
 
 
 def _smoothstep(x: float) -> float:

@@ -97,9 +97,14 @@ class SphereSmoothing:
             return speed, acceleration
         direction = scale(1.0 / angle, apply(self._wheels_from_sphere, to_go))
         closing, slope = approach(angle, _GAIN, self._braking, self._braking_jerk)
-        spare = self._spare(speed, direction)
-        closing, slope = (closing, slope) if closing < spare else (spare, 0.0)
+        if not self._have(add(speed, scale(closing, direction))):
+            closing, slope = min(closing, self._spare(speed, direction)), 0.0
         return add(speed, scale(closing, direction)), subtract(acceleration, scale(slope * closing, direction))
+
+    def _have(self, wheels: Vec3) -> bool:
+        """Whether the wheels can turn that fast."""
+        one, two, three = self._axes
+        return abs(wheels[0]) < one.speed and abs(wheels[1]) < two.speed and abs(wheels[2]) < three.speed
 
     def _spare(self, wheels: Vec3, direction: Vec3) -> float:
         """Largest closing rate (rad/s) that keeps each wheel, busy with the cue already, inside its speed."""

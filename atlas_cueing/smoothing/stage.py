@@ -32,13 +32,16 @@ class RailAxis:
         self.travel = travel - acceleration * dt * dt / 8.0
         if not self.travel > 0.0:
             raise ValueError(f"travel > acceleration dt^2 / 8 = {acceleration * dt * dt / 8.0:.3g} m; got {travel} m")
+        self._braking, self._braking_jerk = _BRAKING_SHARE * self._axis.acceleration, _BRAKING_SHARE * self._axis.jerk
         self.p = self.v = self.a = 0.0
 
     def step(self, p: float, v: float, a: float) -> bool:
         """Follow a cue for one tick; whether it was given. Any input is safe."""
         to_go = p - (self.p + 0.5 * self._axis.dt * (self.v + v))
         try:
-            step = self._certified(self._axis.towards(self.v, self.a, *self._demand(to_go, v, a)))
+            step = self._axis.towards(self.v, self.a, *self._demand(to_go, v, a))
+            if not self._is_certified(self.p + step.displacement, step):
+                step = self._axis.stopping(self.v, self.a)
         except PlanningError:
             step = self._axis.stopping(self.v, self.a)
         self.p, self.v, self.a = self.p + step.displacement, step.v, step.a
@@ -48,24 +51,22 @@ class RailAxis:
         """Speed and acceleration asked for at the end of the tick."""
         if not isfinite(to_go + v + a):
             return 0.0, 0.0
-        a_max, j_max = _BRAKING_SHARE * self._axis.acceleration, _BRAKING_SHARE * self._axis.jerk
-        closing, slope = approach(abs(to_go), _GAIN, a_max, j_max)
-        v_target, a_target = v + copysign(closing, to_go), a - slope * copysign(closing, to_go)
+        closing, slope = approach(abs(to_go), _GAIN, self._braking, self._braking_jerk)
+        closing = copysign(closing, to_go)
+        v_target, a_target = v + closing, a - slope * closing
         ahead = self.p + 0.5 * self._axis.dt * (self.v + v_target)
-        room = self.travel - copysign(ahead, ahead * v_target) if ahead else self.travel
-        fastest, slope = approach(room, _END_GAIN, a_max, j_max)
-        if abs(v_target) > fastest:
-            v_target, a_target = copysign(fastest, v_target), -slope * copysign(fastest, v_target)
-        return v_target, a_target
+        room = self.travel - (ahead if v_target > 0.0 else -ahead)
+        fastest, slope = approach(room, _END_GAIN, self._braking, self._braking_jerk)
+        if -fastest <= v_target <= fastest:
+            return v_target, a_target
+        return copysign(fastest, v_target), -slope * copysign(fastest, v_target)
 
-    def _certified(self, step: Step) -> Step:
-        """The step, if the stop from where it leads stays inside the travel; else the stop certified a tick ago."""
-        p = self.p + step.displacement
+    def _is_certified(self, p: float, step: Step) -> bool:
+        """Whether the stop from p, where the step leads, stays inside the travel."""
         if abs(p) + stop_bound(step.v, step.a, self._axis.acceleration, self._axis.jerk) <= self.travel:
-            return step
+            return True
         low, high = Stop.plan(step.v, step.a, self._axis.acceleration, self._axis.jerk).span()
-        inside = -self.travel <= p + low and p + high <= self.travel
-        return step if inside else self._axis.stopping(self.v, self.a)
+        return -self.travel <= p + low and p + high <= self.travel
 
 
 class StageSmoothing:
