@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from ..rotation import Quat, multiply
 from .flight import Array, Flight
 from .quaternions import exp, geodesic
+from .statistics import by_rows, largest
 
 
 def consistency(flight: Flight, wheels_from_sphere: ArrayLike, sphere_from_wheels: ArrayLike) -> dict[str, float]:
@@ -19,12 +20,16 @@ def consistency(flight: Flight, wheels_from_sphere: ArrayLike, sphere_from_wheel
     The matrices are (3, 3): wheel speeds = wheels_from_sphere @ w_WS_W (J^-1, Eq. 22), and back (J, Eq. 18).
     """
     from_sphere = np.asarray(wheels_from_sphere, dtype=np.float64).T
-    drift = geodesic(reintegrate(flight, sphere_from_wheels), flight.motion_q_WS)
+
+    def mismatch(wheels: Array, sphere: Array) -> Array:
+        return wheels - sphere @ from_sphere
+
+    drift = by_rows(geodesic, reintegrate(flight, sphere_from_wheels), flight.motion_q_WS)
     return {
-        "wheel_speed_mismatch_max_rad_s": _max(flight.wheel_speed - flight.motion_w_W @ from_sphere),
-        "wheel_acceleration_mismatch_max_rad_s2": _max(flight.wheel_acceleration - flight.motion_alpha_W @ from_sphere),
+        "wheel_speed_mismatch_max_rad_s": largest(by_rows(mismatch, flight.wheel_speed, flight.motion_w_W)),
+        "wheel_acceleration_mismatch_max_rad_s2": largest(by_rows(mismatch, flight.wheel_acceleration, flight.motion_alpha_W)),
         "orientation_drift_final_rad": float(drift[-1]) if len(drift) else 0.0,
-        "orientation_drift_max_rad": _max(drift),
+        "orientation_drift_max_rad": largest(drift),
     }
 
 
@@ -37,10 +42,17 @@ def reintegrate(flight: Flight, sphere_from_wheels: ArrayLike) -> Array:
     if not len(flight.time):
         return np.empty((0, 4))
     to_sphere = np.asarray(sphere_from_wheels, dtype=np.float64).T
-    h = np.diff(flight.time)[:, None]
-    w, alpha = flight.wheel_speed @ to_sphere, flight.wheel_acceleration @ to_sphere
-    turns = 0.5 * h * (w[:-1] + w[1:]) + h * h / 12.0 * (alpha[:-1] - alpha[1:] + np.cross(w[1:], w[:-1]))
-    return np.array(list(accumulate(map(_quat, exp(turns)), _after, initial=_quat(flight.motion_q_WS[0]))))
+
+    def turns(h: Array, speed: Array, next_speed: Array, acceleration: Array, next_acceleration: Array) -> Array:
+        w, next_w = speed @ to_sphere, next_speed @ to_sphere
+        slowing = (acceleration - next_acceleration) @ to_sphere
+        h = h[:, None]
+        return exp(0.5 * h * (w + next_w) + h * h / 12.0 * (slowing + np.cross(next_w, w)))
+
+    speed, acceleration = flight.wheel_speed, flight.wheel_acceleration
+    each = by_rows(turns, np.diff(flight.time), speed[:-1], speed[1:], acceleration[:-1], acceleration[1:])
+    orientations = accumulate(map(_quat, each), _after, initial=_quat(flight.motion_q_WS[0]))
+    return np.fromiter(orientations, dtype=np.dtype((np.float64, 4)), count=len(flight.time))
 
 
 def _quat(row: Array) -> Quat:
@@ -50,7 +62,3 @@ def _quat(row: Array) -> Quat:
 
 def _after(q: Quat, turn: Quat) -> Quat:
     return multiply(turn, q)
-
-
-def _max(x: Array) -> float:
-    return float(np.max(np.abs(x), initial=0.0))

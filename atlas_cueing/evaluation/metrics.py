@@ -16,7 +16,7 @@ def metrics(flight: Flight) -> dict[str, float]:
     error), `extra_rate`, `likeness` (perceived errors; correlation, delay, missing, false and scaled cues of each axis),
     `turning` (Coriolis exposure, net turns), `effort` (smoothing and actuators); ticks and duration_s close the list.
 
-    Every figure is a finite number; a flight without ticks gives zeros.
+    Every figure is a finite float when the columns are finite; a flight without ticks gives zeros.
     """
     return {
         **deviation(flight),

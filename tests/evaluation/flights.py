@@ -41,3 +41,10 @@ def still(count: int, dt: float = 0.01, **changes: np.ndarray) -> Flight:
 def sine(count: int, amplitude: float, periods: int) -> np.ndarray:
     """Whole periods of a sine, (count,): its rms is amplitude / sqrt(2), whatever the sampling."""
     return amplitude * np.sin(2.0 * np.pi * periods * np.arange(count) / count)
+
+
+def column(values: np.ndarray, axis: int) -> np.ndarray:
+    """A vector (n, 3) with `values` (n,) along one axis."""
+    vector = np.zeros((len(values), 3))
+    vector[:, axis] = values
+    return vector

@@ -90,3 +90,30 @@ def test_direction_error_is_the_angle_whatever_the_lengths(angle: float, axis: A
 
 def test_direction_error_of_no_force_is_zero() -> None:
     assert direction_error(ZERO, [[0.0, 0.0, -9.8]]).tolist() == [0.0]
+
+
+def test_a_whole_run_is_its_ticks_one_by_one() -> None:
+    """Columns cut out of a wider table, as a recorder has them, and one head for all."""
+    random = np.random.default_rng(6)
+    table = random.normal(size=(300, 20))
+    q = Rotation.random(300, rng=random).as_quat(scalar_first=True)
+    columns = (q, table[:, 1:4], table[:, 5:8], table[:, 9:12])
+    head = (0.1, -0.2, 0.3)
+    whole = felt(*columns, head)
+    for k in (0, 137, 299):
+        for run, tick in zip(whole, felt(*(column[k : k + 1] for column in columns), head), strict=True):
+            np.testing.assert_array_equal(run[k], tick[0])
+
+
+def test_what_is_the_same_at_every_tick_may_be_given_once() -> None:
+    """Many attitudes of a cabin that does not accelerate."""
+    q = Rotation.random(20, rng=np.random.default_rng(7)).as_quat(scalar_first=True)
+    many = np.zeros((20, 3))
+    once = felt(q, ZERO, ZERO, ZERO, (0.1, 0.2, 0.3))
+    np.testing.assert_array_equal(once[0], felt(q, many, many, many, (0.1, 0.2, 0.3))[0])
+
+
+def test_no_ticks_feel_nothing() -> None:
+    none = np.empty((0, 3))
+    assert [x.shape for x in felt(np.empty((0, 4)), none, none, none, ZERO[0])] == [(0, 3), (0, 3)]
+    assert direction_error(none, none).shape == (0,)
