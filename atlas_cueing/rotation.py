@@ -141,7 +141,7 @@ def log_unwound(q: Quat) -> Vec3:
     s = hypot(x, y, z)
     if s < 0.5 * _SMALL_ANGLE and w > 0.0:
         k = 2.0 + s * s / 3.0  # 2 asin(s) / s
-    elif s == 0.0:
+    elif s < 1e-300:
         return (2.0 * pi, 0.0, 0.0)  # a full turn about no axis in particular
     else:
         k = 2.0 * atan2(s, w) / s

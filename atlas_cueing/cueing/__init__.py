@@ -6,12 +6,25 @@ Nothing is ever washed out to neutral.
 
 from .cueing import Cueing, RotationMethod, build
 from .jumps import attitude_jump
-from .parameters import AttitudeParameters, BlendParameters, SlowTurnParameters, StageParameters
+from .parameters import (
+    CLASSICAL_STAGE,
+    AttitudeParameters,
+    BlendParameters,
+    ClassicalParameters,
+    ForceParameters,
+    MethodParameters,
+    SlowTurnParameters,
+    StageParameters,
+)
 
 __all__ = [
+    "CLASSICAL_STAGE",
     "AttitudeParameters",
     "BlendParameters",
+    "ClassicalParameters",
     "Cueing",
+    "ForceParameters",
+    "MethodParameters",
     "RotationMethod",
     "SlowTurnParameters",
     "StageParameters",

@@ -29,7 +29,8 @@ class AttitudeRotation:
             self._cabin = Cabin(self._dt, self._target, w_S, self._parameters.turn)
         else:
             self._target = normalise(multiply(self._target, self._turned(vehicle.q_NB)))
-            self._cabin.follow(w_S, log(multiply(conjugate(self._cabin.q_WS), self._target)))
+            self._cabin.carry(w_S)
+            self._cabin.correct(log(multiply(conjugate(self._cabin.q_WS), self._target)))
         self._q_NB = vehicle.q_NB
         return self._cabin.cue
 

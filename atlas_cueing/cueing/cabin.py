@@ -5,6 +5,7 @@ from ..rotation import (
     Quat,
     Vec3,
     add,
+    exp,
     flip,
     flip_rotation,
     from_euler,
@@ -24,7 +25,7 @@ from .parameters import SlowTurnParameters
 class SlowTurn:
     """Rate at which the cabin takes back an error without being noticed.
 
-    The wish error / time, at most `rate` long, passes a critically damped filter in cabin axes. The filter keeps the rate
+    The wish error / time + w, at most `rate` long, passes a critically damped filter in cabin axes. The filter keeps the rate
     inside the ball of its wishes and its derivative below 2 rate / (e smoothing); both bounds hold for any error.
     """
 
@@ -34,10 +35,11 @@ class SlowTurn:
         self._damping = CriticalDamping(1.0 / parameters.smoothing, dt)
         self._w, self._alpha = ZERO, ZERO
 
-    def step(self, error: Vec3) -> Vec3:
-        """Rate after one tick (rad/s), for the rotation vector `error` (rad) still to go."""
-        size = norm(error)
-        wish = scale(min(1.0 / self._time, self._rate / size) if size > 0.0 else 0.0, error)
+    def step(self, error: Vec3, w: Vec3) -> Vec3:
+        """Rate after one tick (rad/s), for the rotation vector `error` (rad) still to go and the lasting rate w (rad/s)."""
+        wish = add(scale(1.0 / self._time, error), w)
+        size = norm(wish)
+        wish = wish if size <= self._rate else scale(self._rate / size, wish)
         (x, y, z), (ax, ay, az), step = self._w, self._alpha, self._damping.step
         (x, ax), (y, ay), (z, az) = step(x, ax, wish[0]), step(y, ay, wish[1]), step(z, az, wish[2])
         self._w, self._alpha = (x, y, z), (ax, ay, az)
@@ -50,18 +52,22 @@ class Cabin:
     def __init__(self, dt: float, q_WS: Quat, w_S: Vec3, parameters: SlowTurnParameters) -> None:
         """Begin in q_WS, turning with w_S (rad/s, S); dt in s."""
         self._dt, self.q_WS, self._w_S = dt, q_WS, w_S
-        self._slow = SlowTurn(dt, parameters)
+        self._slow, self._w_slow = SlowTurn(dt, parameters), ZERO
 
-    def follow(self, w_S: Vec3, error_S: Vec3) -> None:
-        """Turn for one tick with w_S (rad/s, S), and slowly by the rotation vector error_S (rad, S)."""
-        before, self._w_S = self._w_S, add(w_S, self._slow.step(error_S))
-        turn = scale(0.5 * self._dt, add(before, self._w_S))
-        self.q_WS = normalise(integrate_body(self.q_WS, turn, before, self._w_S, self._dt))
+    def carry(self, w_S: Vec3) -> None:
+        """Turn for one tick with the rate w_S (rad/s, S), by the trapezoid."""
+        before, self._w_S = self._w_S, w_S
+        self.q_WS = integrate_body(self.q_WS, scale(0.5 * self._dt, add(before, w_S)), before, w_S, self._dt)
+
+    def correct(self, error_S: Vec3, w_S: Vec3 = ZERO) -> None:
+        """Turn slowly for the same tick, by what is then left (rotation vector error_S, rad, S) and with w_S (rad/s, S)."""
+        before, self._w_slow = self._w_slow, self._slow.step(error_S, w_S)
+        self.q_WS = normalise(multiply(self.q_WS, exp(scale(0.5 * self._dt, add(before, self._w_slow)))))
 
     @property
     def cue(self) -> tuple[Quat, Vec3]:
         """Orientation q_WS and rate w_WS_W (rad/s)."""
-        return self.q_WS, rotate(self.q_WS, self._w_S)
+        return self.q_WS, rotate(self.q_WS, add(self._w_S, self._w_slow))
 
 
 def upright(q_NB: Quat) -> Quat:

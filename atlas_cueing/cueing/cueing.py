@@ -6,7 +6,16 @@ from ..rotation import Quat, Vec3
 from ..signals import Cue, StageLimits, VehicleState
 from .attitude import AttitudeRotation
 from .blend import BlendRotation
-from .parameters import AttitudeParameters, BlendParameters, StageParameters
+from .classical import ClassicalRotation
+from .force import ForceRotation
+from .parameters import (
+    AttitudeParameters,
+    BlendParameters,
+    ClassicalParameters,
+    ForceParameters,
+    MethodParameters,
+    StageParameters,
+)
 from .stage import StageCueing
 
 
@@ -30,9 +39,7 @@ class Cueing:
         return Cue(vehicle.time, q_WS, w_WS_W, *self._stage.step(q_WS, w_WS_W, vehicle.f_B))
 
 
-def build(
-    method: AttitudeParameters | BlendParameters, stage: StageParameters, limits: StageLimits, head_S: Vec3, dt: float
-) -> Cueing:
+def build(method: MethodParameters, stage: StageParameters, limits: StageLimits, head_S: Vec3, dt: float) -> Cueing:
     """Cueing by the method whose parameters are given; limits and head_S (m, S) of the platform, dt in s."""
     rotation: RotationMethod
     match method:
@@ -40,4 +47,8 @@ def build(
             rotation = AttitudeRotation(dt, method)
         case BlendParameters():
             rotation = BlendRotation(dt, method)
+        case ForceParameters():
+            rotation = ForceRotation(dt, method)
+        case ClassicalParameters():
+            rotation = ClassicalRotation(dt, method)
     return Cueing(rotation, StageCueing(dt, stage, limits, head_S))

@@ -1,7 +1,8 @@
 """What a user can choose about cueing; defaults carry their source."""
 
 from dataclasses import dataclass
-from math import radians
+from math import inf, pi, radians
+from typing import TypeAlias
 
 from ..rotation import Vec3
 
@@ -19,7 +20,7 @@ class SlowTurnParameters:
     """
 
     rate: float = radians(3.0)
-    time: float = 1.0
+    time: float = 2.0
     smoothing: float = 0.25
 
 
@@ -40,27 +41,74 @@ class BlendParameters:
     """Method `blend`: body rates one to one, plus the slow turn towards the vehicle's specific force.
 
     rotation_gain: factor on the vehicle's rates about the cabin's x, y, z.
+    bandwidth: natural frequency of the filter on the force whose turning the slow turn goes along with, rad/s (assumed).
     hold: the slow turn fades out where the specific force falls from twice this magnitude to it, m/s^2 (assumed).
     """
 
     rotation_gain: Vec3 = ONES
+    bandwidth: float = 2.0 * pi
     hold: float = 1.5
     turn: SlowTurnParameters = SlowTurnParameters()
 
 
 @dataclass(frozen=True, slots=True)
-class StageParameters:
-    """The stage: onsets of the acceleration that the rider's head should have, inside the travel.
+class ForceParameters:
+    """Method `force`: W's up follows the vehicle's specific force in the cabin.
 
-    force_gain: factor on the demanded acceleration along x, y, z of W.
+    rotation_gain: factor on the vehicle's rates; only what of them lies along the force is used.
+    bandwidth: natural frequency of the filter on the force, rad/s (assumed: 1 Hz, above manoeuvres and below buffeting).
+    hold: the cabin follows the force fully from twice this magnitude on and not at all below it, m/s^2 (assumed).
+    turn: takes back what misalignment is left (assumed: half a turn a second at most, as fast as the wheels of Atlas).
+    """
+
+    rotation_gain: Vec3 = ONES
+    bandwidth: float = 2.0 * pi
+    hold: float = 1.5
+    turn: SlowTurnParameters = SlowTurnParameters(rate=pi, time=0.5, smoothing=0.1)
+
+
+@dataclass(frozen=True, slots=True)
+class ClassicalParameters:
+    """Method `classical`: the hexapod's washout with the parameter set of TU Delft (gains 0.6, critically damped).
+
+    rotation_gain, tilt_gain: factors on body rates and on the specific force behind the tilt, per body axis.
+    high_pass: natural frequencies of the rotation washout, rad/s: roll, pitch, yaw.
+    tilt_low_pass: natural frequency behind the tilt, rad/s.
+    tilt_rate: largest rate of the tilt, rad/s.
+    angle_limit: of roll, pitch and yaw, rad, approached smoothly (assumed: 25 deg, as hexapods of 60 inch stroke reach);
+        infinite for none.
+    """
+
+    rotation_gain: Vec3 = (0.6, 0.6, 0.6)
+    tilt_gain: Vec3 = (0.6, 0.6, 0.5)
+    high_pass: Vec3 = (1.0, 0.8, 1.0)
+    tilt_low_pass: float = 2.0
+    tilt_rate: float = radians(3.0)
+    angle_limit: float = radians(25.0)
+
+
+@dataclass(frozen=True, slots=True)
+class StageParameters:
+    """The stage: onsets of the acceleration that the rider's head should have, inside the travel; per axis x, y, z of W.
+
+    force_gain: factor on the demanded acceleration.
     onset: natural frequency of the braking high-pass, rad/s (assumed; TU Delft's classical set has 0.8 to 1).
-    recentre: corner of the return to the centre, rad/s; the return takes at most travel recentre^2 of acceleration, which at
-        0.2 rad/s and 1 m is 0.04 m/s^2, below the 0.063 (horizontal) and 0.154 m/s^2 (vertical) at which linear motion begins
-        to be felt (Benson, Spencer & Stott, Aviation, Space and Environmental Medicine 57, 1986).
+    recentre: corner of the return to the centre, rad/s; 0 for none beyond the high-pass. The return takes at most
+        travel recentre^2 of acceleration, which at 0.2 rad/s and 1 m is 0.04 m/s^2, below the 0.063 (horizontal) and 0.154
+        m/s^2 (vertical) at which linear motion begins to be felt (Benson, Spencer & Stott, Aviation, Space and Environmental
+        Medicine 57, 1986).
     bandwidth: corner of the low-pass on the demand, Hz (assumed).
+    travel: no more than this of the platform's travel is used, m.
     """
 
     force_gain: Vec3 = ONES
-    onset: float = 1.5
-    recentre: float = 0.2
+    onset: Vec3 = (1.5, 1.5, 1.5)
+    recentre: Vec3 = (0.2, 0.2, 0.2)
     bandwidth: float = 5.0
+    travel: Vec3 = (inf, inf, inf)
+
+
+CLASSICAL_STAGE = StageParameters((0.6, 0.6, 0.5), onset=(0.8, 1.0, 1.0), recentre=(0.0, 0.0, 0.2), travel=(0.6, 0.6, 0.6))
+"""The TU Delft set for `classical`; the travel is assumed, that of a hexapod of 60 inch stroke."""
+
+MethodParameters: TypeAlias = AttitudeParameters | BlendParameters | ForceParameters | ClassicalParameters

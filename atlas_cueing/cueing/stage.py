@@ -10,6 +10,7 @@ brakes with the natural frequency omega and comes back to the centre with omega_
 A tanh(d / A), so that no demand whatever, by the L1 norms of the filter, can drive p, v or a out of their bounds.
 """
 
+from functools import cache
 from math import exp, pi, tanh
 
 from ..rotation import ZERO, Quat, Vec3, add, cross, flip, rotate, scale, subtract
@@ -24,12 +25,12 @@ _SHARE = 0.95  # of travel, speed and acceleration that the worst demand may use
 class OnsetFilter:
     """One axis of the stage: demand (m/s^2) in, position, velocity and acceleration out."""
 
-    def __init__(self, dt: float, parameters: StageParameters, bound: float) -> None:
-        """`bound` is A, m/s^2; dt in s."""
-        self._omega, self._bound = parameters.onset, bound
-        self._braking = CriticalDamping(parameters.onset, dt)
-        self._pass = 1.0 - exp(-2.0 * pi * parameters.bandwidth * dt)
-        self._drain = 1.0 - exp(-parameters.recentre * dt)
+    def __init__(self, dt: float, onset: float, recentre: float, bandwidth: float, bound: float) -> None:
+        """Parameters as in StageParameters, for one axis; `bound` is A, m/s^2; dt in s."""
+        self._omega, self._bound = onset, bound
+        self._braking = CriticalDamping(onset, dt)
+        self._pass = 1.0 - exp(-2.0 * pi * bandwidth * dt)
+        self._drain = 1.0 - exp(-recentre * dt)
         self._demand = self._lasting = self._p = self._v = self._u = 0.0
         self._started = False
 
@@ -37,7 +38,8 @@ class OnsetFilter:
         """Position, velocity and acceleration after one tick; a demand that is there at the start counts as lasting."""
         limited = self._bound * tanh(demand / self._bound)
         if not self._started:
-            self._demand = self._lasting = limited
+            self._demand = limited
+            self._lasting = limited
             self._started = True
         self._demand += self._pass * (limited - self._demand)
         self._lasting += self._drain * (self._demand - self._lasting)
@@ -53,9 +55,9 @@ class StageCueing:
     def __init__(self, dt: float, parameters: StageParameters, limits: StageLimits, head_S: Vec3) -> None:
         """head_S: the rider's head from the sphere centre, m, frame S; dt in s."""
         self._dt, self._gain, self._head = dt, parameters.force_gain, head_S
-        each = zip(limits.travel, limits.speed, limits.acceleration, strict=True)
-        worst = worst_response(parameters)
-        self._axes = [OnsetFilter(dt, parameters, demand_bound(worst, *limit)) for limit in each]
+        travel = [min(pair) for pair in zip(limits.travel, parameters.travel, strict=True)]
+        each = zip(parameters.onset, parameters.recentre, travel, limits.speed, limits.acceleration, strict=True)
+        self._axes = [OnsetFilter(dt, *axis[:2], parameters.bandwidth, _bound(parameters.bandwidth, *axis)) for axis in each]
         self._w_before: Vec3 | None = None
 
     def step(self, q_WS: Quat, w_WS_W: Vec3, f_B: Vec3) -> tuple[Vec3, Vec3, Vec3]:
@@ -76,21 +78,23 @@ class StageCueing:
         return add(cross(alpha, r), cross(w_WS_W, cross(w_WS_W, r)))
 
 
-def worst_response(parameters: StageParameters) -> Vec3:
+@cache
+def worst_response(onset: float, recentre: float, bandwidth: float) -> Vec3:
     """Largest |p|, |v| and |a| per 1 m/s^2 of demand bound, over all demands: the L1 norms of the filter's responses.
 
-    Sampled finely against the onset, over as long as the slow pole takes to forget.
+    Sampled finely against the onset, over as long as the slowest pole takes to forget.
     """
-    dt = 0.02 / parameters.onset
-    onset = OnsetFilter(dt, parameters, 1e9)
-    onset.step(0.0)
-    p, v, a = (abs(x) for x in onset.step(1.0))
-    for _ in range(int(8.0 / parameters.recentre / dt)):
-        each = onset.step(0.0)
+    dt = 0.02 / onset
+    axis = OnsetFilter(dt, onset, recentre, bandwidth, 1e9)
+    axis.step(0.0)
+    p, v, a = (abs(x) for x in axis.step(1.0))
+    for _ in range(int(8.0 / (recentre or onset) / dt)):
+        each = axis.step(0.0)
         p, v, a = p + abs(each[0]), v + abs(each[1]), a + abs(each[2])
     return (p, v, a)
 
 
-def demand_bound(worst: Vec3, travel: float, speed: float, acceleration: float) -> float:
+def _bound(bandwidth: float, onset: float, recentre: float, travel: float, speed: float, acceleration: float) -> float:
     """Largest demand (m/s^2) that keeps the filter inside travel, speed and acceleration whatever its history."""
+    worst = worst_response(onset, recentre, bandwidth)
     return _SHARE * min(travel / worst[0], speed / worst[1], acceleration / worst[2])

@@ -1,24 +1,43 @@
 """The `[cueing]` table: one class for each method, mapped to the dataclasses of `atlas_cueing.cueing`.
 
 Defaults come from those dataclasses; here are only units for people and the ranges that make sense. A new method is one
-more class, and its name in `CueingTable`.
+more class, and its name in `METHODS` and `CueingTable`.
 """
 
-from math import degrees, radians
+from math import degrees, inf, radians
 from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import Discriminator, Tag
 
-from ..cueing.parameters import AttitudeParameters, BlendParameters, SlowTurnParameters, StageParameters
+from ..cueing import (
+    CLASSICAL_STAGE,
+    AttitudeParameters,
+    BlendParameters,
+    ClassicalParameters,
+    ForceParameters,
+    MethodParameters,
+    SlowTurnParameters,
+    StageParameters,
+)
 from .table import ONE_OR_THREE, Table, number
 
 Gain: TypeAlias = Annotated[float, number(0.0, 10.0)]
 Gains: TypeAlias = Annotated[tuple[Gain, Gain, Gain], ONE_OR_THREE]
 TurnRate: TypeAlias = Annotated[float, number(0.0, 90.0, above=True)]
+FastRate: TypeAlias = Annotated[float, number(0.0, 720.0, above=True)]
 Duration: TypeAlias = Annotated[float, number(0.01, 1000.0)]
+Frequency: TypeAlias = Annotated[float, number(0.01, 50.0)]
+Frequencies: TypeAlias = Annotated[tuple[Frequency, Frequency, Frequency], ONE_OR_THREE]
+Corner: TypeAlias = Annotated[float, number(0.0, 10.0)]
+Corners: TypeAlias = Annotated[tuple[Corner, Corner, Corner], ONE_OR_THREE]
+Travel: TypeAlias = Annotated[float, number(0.0, 1e3, above=True)]
+Travels: TypeAlias = Annotated[tuple[Travel, Travel, Travel], ONE_OR_THREE]
+Force: TypeAlias = Annotated[float, number(0.01, 100.0)]
 
 _ATTITUDE = AttitudeParameters()
 _BLEND = BlendParameters()
+_FORCE = ForceParameters()
+_CLASSICAL = ClassicalParameters()
 _STAGE = StageParameters()
 
 
@@ -28,11 +47,12 @@ def _degrees(angle: float) -> float:
 
 
 class StageTable(Table):
-    """`[cueing.stage]`: see StageParameters."""
+    """`[cueing.stage]`: see StageParameters; `travel_m` is left out where the platform's own travel counts."""
 
-    onset_rad_s: Annotated[float, number(0.0, 50.0, above=True)] = _STAGE.onset
-    recentre_rad_s: Annotated[float, number(0.0, 10.0, above=True)] = _STAGE.recentre
+    onset_rad_s: Frequencies = _STAGE.onset
+    recentre_rad_s: Corners = _STAGE.recentre
     bandwidth_hz: Annotated[float, number(0.0, 100.0, above=True)] = _STAGE.bandwidth
+    travel_m: Travels | None = None
 
 
 class _Method(Table):
@@ -44,7 +64,9 @@ class _Method(Table):
 
     def stage_parameters(self) -> StageParameters:
         """Parameters of the stage, SI."""
-        return StageParameters(self.force_gain, self.stage.onset_rad_s, self.stage.recentre_rad_s, self.stage.bandwidth_hz)
+        stage = self.stage
+        travel = stage.travel_m or (inf, inf, inf)
+        return StageParameters(self.force_gain, stage.onset_rad_s, stage.recentre_rad_s, stage.bandwidth_hz, travel)
 
 
 class AttitudeTable(_Method):
@@ -55,7 +77,7 @@ class AttitudeTable(_Method):
     return_time_s: Duration = _ATTITUDE.turn.time
     return_smoothing_s: Duration = _ATTITUDE.turn.smoothing
 
-    def parameters(self) -> AttitudeParameters:
+    def parameters(self) -> MethodParameters:
         """Parameters of the method, SI."""
         turn = SlowTurnParameters(radians(self.return_rate_deg_s), self.return_time_s, self.return_smoothing_s)
         return AttitudeParameters(rotation_gain=self.rotation_gain, turn=turn)
@@ -68,15 +90,62 @@ class BlendTable(_Method):
     align_rate_deg_s: TurnRate = _degrees(_BLEND.turn.rate)
     align_time_s: Duration = _BLEND.turn.time
     align_smoothing_s: Duration = _BLEND.turn.smoothing
-    hold_force_m_s2: Annotated[float, number(0.0, 100.0)] = _BLEND.hold
+    hold_force_m_s2: Force = _BLEND.hold
 
-    def parameters(self) -> BlendParameters:
+    def parameters(self) -> MethodParameters:
         """Parameters of the method, SI."""
         turn = SlowTurnParameters(radians(self.align_rate_deg_s), self.align_time_s, self.align_smoothing_s)
         return BlendParameters(rotation_gain=self.rotation_gain, hold=self.hold_force_m_s2, turn=turn)
 
 
-METHODS: dict[str, type[_Method]] = {"attitude": AttitudeTable, "blend": BlendTable}
+class ForceTable(_Method):
+    """Method `force`: see ForceParameters."""
+
+    method: Literal["force"] = "force"
+    bandwidth_rad_s: Frequency = _FORCE.bandwidth
+    align_rate_deg_s: FastRate = _degrees(_FORCE.turn.rate)
+    align_time_s: Duration = _FORCE.turn.time
+    align_smoothing_s: Duration = _FORCE.turn.smoothing
+    hold_force_m_s2: Force = _FORCE.hold
+
+    def parameters(self) -> MethodParameters:
+        """Parameters of the method, SI."""
+        turn = SlowTurnParameters(radians(self.align_rate_deg_s), self.align_time_s, self.align_smoothing_s)
+        return ForceParameters(self.rotation_gain, self.bandwidth_rad_s, self.hold_force_m_s2, turn)
+
+
+class ClassicalTable(_Method):
+    """Method `classical`: see ClassicalParameters; a limit of 1e6 deg is none."""
+
+    method: Literal["classical"] = "classical"
+    rotation_gain: Gains = _CLASSICAL.rotation_gain
+    force_gain: Gains = CLASSICAL_STAGE.force_gain
+    high_pass_rad_s: Frequencies = _CLASSICAL.high_pass
+    tilt_low_pass_rad_s: Frequency = _CLASSICAL.tilt_low_pass
+    tilt_rate_deg_s: TurnRate = _degrees(_CLASSICAL.tilt_rate)
+    angle_limit_deg: Annotated[float, number(0.0, 1e6, above=True)] = _degrees(_CLASSICAL.angle_limit)
+    stage: StageTable = StageTable(
+        onset_rad_s=CLASSICAL_STAGE.onset, recentre_rad_s=CLASSICAL_STAGE.recentre, travel_m=CLASSICAL_STAGE.travel
+    )
+
+    def parameters(self) -> MethodParameters:
+        """Parameters of the method, SI."""
+        return ClassicalParameters(
+            rotation_gain=self.rotation_gain,
+            tilt_gain=self.force_gain,
+            high_pass=self.high_pass_rad_s,
+            tilt_low_pass=self.tilt_low_pass_rad_s,
+            tilt_rate=radians(self.tilt_rate_deg_s),
+            angle_limit=radians(self.angle_limit_deg),
+        )
+
+
+METHODS: dict[str, type[_Method]] = {
+    "attitude": AttitudeTable,
+    "blend": BlendTable,
+    "force": ForceTable,
+    "classical": ClassicalTable,
+}
 DEFAULT_METHOD = "blend"
 
 
@@ -85,6 +154,9 @@ def _method(value: Any) -> Any:
 
 
 CueingTable: TypeAlias = Annotated[
-    Annotated[AttitudeTable, Tag("attitude")] | Annotated[BlendTable, Tag("blend")],
+    Annotated[AttitudeTable, Tag("attitude")]
+    | Annotated[BlendTable, Tag("blend")]
+    | Annotated[ForceTable, Tag("force")]
+    | Annotated[ClassicalTable, Tag("classical")],
     Discriminator(_method),
 ]

@@ -53,7 +53,7 @@ class RailAxis:
             return 0.0, 0.0
         closing, slope = approach(abs(to_go), _GAIN, self._braking, self._braking_jerk)
         closing = copysign(closing, to_go)
-        v_target, a_target = v + closing, a - slope * closing
+        v_target, a_target = min(max(v + closing, -self._axis.speed), self._axis.speed), a - slope * closing
         ahead = self.p + 0.5 * self._axis.dt * (self.v + v_target)
         room = self.travel - (ahead if v_target > 0.0 else -ahead)
         fastest, slope = approach(room, _END_GAIN, self._braking, self._braking_jerk)

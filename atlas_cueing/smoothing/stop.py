@@ -76,21 +76,31 @@ def stop_bound(v: float, a: float, a_max: float, j_max: float) -> float:
 
 
 def approach(distance: float, gain: float, a_max: float, j_max: float) -> tuple[float, float]:
-    """Speed at which to close a distance >= 0 so as to stop at its end, and the slope of that speed over the distance, 1/s.
+    """Speed at which to close a distance d >= 0 so as to stop at its end, and the slope of that speed over d, 1/s.
 
-    Linear near the end, gain * distance, and never more than the speed from which the stop (from a = 0) takes the distance:
-    d = v sqrt(v / J) below v = A^2 / J, d = v/2 (v / A + A / J) above.
+    The least of three, so that no deceleration (speed times slope) goes beyond a_max: gain d; from d = A / gain^2 on, with
+    the same slope there, sqrt(2 A (d - A / 2 gain^2)); and the speed from which the jerk-limited stop from a = 0 takes d,
+    d = v sqrt(v / J) below v = A^2 / J and d = v/2 (v / A + A / J) above.
     """
-    if distance <= 0.0:
-        return 0.0, gain
+    if distance * gain**2 <= a_max and distance * gain**3 <= j_max:
+        return gain * max(distance, 0.0), gain
+    return min(_by_acceleration(distance, gain, a_max), _by_jerk(distance, a_max, j_max))
+
+
+def _by_acceleration(distance: float, gain: float, a_max: float) -> tuple[float, float]:
+    if distance * gain**2 <= a_max:
+        return gain * distance, gain
+    speed = sqrt(2.0 * a_max * (distance - 0.5 * a_max / gain**2))
+    return speed, a_max / speed
+
+
+def _by_jerk(distance: float, a_max: float, j_max: float) -> tuple[float, float]:
     if distance < a_max**3 / j_max**2:
         speed = (distance * distance * j_max) ** (1.0 / 3.0)
-        slope = 2.0 * speed / (3.0 * distance)
-    else:
-        half = 0.5 * a_max * a_max / j_max
-        root = sqrt(half * half + 2.0 * a_max * distance)
-        speed, slope = root - half, a_max / root
-    return (gain * distance, gain) if gain * distance <= speed else (speed, slope)
+        return speed, 2.0 * speed / (3.0 * distance)
+    half = 0.5 * a_max * a_max / j_max
+    root = sqrt(half * half + 2.0 * a_max * distance)
+    return root - half, a_max / root
 
 
 def _coast(p: float, v: float, a: float, jerk: float, t: float) -> tuple[float, float, float]:
