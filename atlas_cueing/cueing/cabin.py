@@ -5,6 +5,7 @@ from ..rotation import (
     Quat,
     Vec3,
     add,
+    cross,
     exp,
     flip,
     flip_rotation,
@@ -15,10 +16,11 @@ from ..rotation import (
     normalise,
     rotate,
     scale,
+    subtract,
     to_euler,
 )
 from ..signals import VehicleState
-from .damping import CriticalDamping
+from .damping import DampedVector
 from .parameters import SlowTurnParameters
 
 
@@ -32,18 +34,13 @@ class SlowTurn:
     def __init__(self, dt: float, parameters: SlowTurnParameters) -> None:
         """Start at rest; dt in s."""
         self._rate, self._time = parameters.rate, parameters.time
-        self._damping = CriticalDamping(1.0 / parameters.smoothing, dt)
-        self._w, self._alpha = ZERO, ZERO
+        self._damped = DampedVector(1.0 / parameters.smoothing, dt, ZERO)
 
     def step(self, error: Vec3, w: Vec3) -> Vec3:
         """Rate after one tick (rad/s), for the rotation vector `error` (rad) still to go and the lasting rate w (rad/s)."""
         wish = add(scale(1.0 / self._time, error), w)
         size = norm(wish)
-        wish = wish if size <= self._rate else scale(self._rate / size, wish)
-        (x, y, z), (ax, ay, az), step = self._w, self._alpha, self._damping.step
-        (x, ax), (y, ay), (z, az) = step(x, ax, wish[0]), step(y, ay, wish[1]), step(z, az, wish[2])
-        self._w, self._alpha = (x, y, z), (ax, ay, az)
-        return self._w
+        return self._damped.step(wish if size <= self._rate else scale(self._rate / size, wish))
 
 
 class Cabin:
@@ -52,17 +49,20 @@ class Cabin:
     def __init__(self, dt: float, q_WS: Quat, w_S: Vec3, parameters: SlowTurnParameters) -> None:
         """Begin in q_WS, turning with w_S (rad/s, S); dt in s."""
         self._dt, self.q_WS, self._w_S = dt, q_WS, w_S
-        self._slow, self._w_slow = SlowTurn(dt, parameters), ZERO
+        self._slow, self._w_slow, self._turn = SlowTurn(dt, parameters), ZERO, ZERO
 
     def carry(self, w_S: Vec3) -> None:
         """Turn for one tick with the rate w_S (rad/s, S), by the trapezoid."""
         before, self._w_S = self._w_S, w_S
-        self.q_WS = integrate_body(self.q_WS, scale(0.5 * self._dt, add(before, w_S)), before, w_S, self._dt)
+        self._turn = scale(0.5 * self._dt, add(before, w_S))
+        self.q_WS = integrate_body(self.q_WS, self._turn, before, w_S, self._dt)
 
     def correct(self, error_S: Vec3, w_S: Vec3 = ZERO) -> None:
         """Turn slowly for the same tick, by what is then left (rotation vector error_S, rad, S) and with w_S (rad/s, S)."""
         before, self._w_slow = self._w_slow, self._slow.step(error_S, w_S)
-        self.q_WS = normalise(multiply(self.q_WS, exp(scale(0.5 * self._dt, add(before, self._w_slow)))))
+        slow = scale(0.5 * self._dt, add(before, self._w_slow))
+        slow = subtract(slow, scale(0.5, cross(self._turn, slow)))  # as if both turns were made at once, to second order
+        self.q_WS = normalise(multiply(self.q_WS, exp(slow)))
 
     @property
     def cue(self) -> tuple[Quat, Vec3]:

@@ -62,12 +62,16 @@ class WashoutAngle:
         """Natural frequency omega in rad/s; dt in s."""
         self._omega, self._damping = omega, CriticalDamping(omega, dt)
         self._state: tuple[float, float] | None = None
+        self._before = 0.0
 
     def step(self, rate: float) -> tuple[float, float]:
         """Angle (rad) and rate (rad/s) one tick on."""
         omega = self._omega
         rest = rate / (omega * omega)
-        x, v = self._state = self._damping.step(*(self._state or (rest, 0.0)), rest)
+        if self._state is None:
+            self._state, self._before = (rest, 0.0), rest
+        x, v = self._state = self._damping.step(*self._state, 0.5 * (self._before + rest))
+        self._before = rest
         return v, rate - omega * (omega * x + 2.0 * v)
 
 

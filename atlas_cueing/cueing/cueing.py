@@ -27,7 +27,10 @@ class RotationMethod(Protocol):
 
 
 class Cueing:
-    """Turns vehicle states into cues, at a fixed tick."""
+    """Turns vehicle states into cues, at a fixed tick.
+
+    States are believable ones, as `vehicles` lets through (`Bounds`): finite, and far from overflow.
+    """
 
     def __init__(self, rotation: RotationMethod, stage: StageCueing) -> None:
         """Begin at the first state."""

@@ -2,6 +2,8 @@
 
 from math import exp
 
+from ..rotation import ZERO, Vec3
+
 
 class CriticalDamping:
     """x'' = omega^2 (target - x) - 2 omega x', stepped exactly for a target that is constant over each step.
@@ -20,3 +22,19 @@ class CriticalDamping:
         """State (x, x') after one step."""
         z = x - target
         return target + self._x_from_z * z + self._x_from_v * v, self._v_from_z * z + self._v_from_v * v
+
+
+class DampedVector:
+    """A vector behind critical damping, component by component: `x` and its rate `v`."""
+
+    def __init__(self, omega: float, dt: float, x: Vec3) -> None:
+        """Begin with the lasting vector x; omega in rad/s, dt in s."""
+        self._step = CriticalDamping(omega, dt).step
+        self.x, self.v = x, ZERO
+
+    def step(self, target: Vec3) -> Vec3:
+        """The vector one step on."""
+        (x, y, z), (vx, vy, vz), step = self.x, self.v, self._step
+        (x, vx), (y, vy), (z, vz) = step(x, vx, target[0]), step(y, vy, target[1]), step(z, vz, target[2])
+        self.x, self.v = (x, y, z), (vx, vy, vz)
+        return self.x

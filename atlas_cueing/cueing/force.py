@@ -25,9 +25,9 @@ class ForceRotation:
             self._parts = self._begin(vehicle, w_S, f_S)
             return self._parts[0].cue
         cabin, direction = self._parts
-        direction.step(f_S)
+        filtered = direction.step(f_S)
         cabin.carry(direction.carried(w_S))
-        cabin.correct(misalignment(cabin.q_WS, direction.f_S, self._parameters.hold))
+        cabin.correct(misalignment(cabin.q_WS, filtered, self._parameters.hold))
         return cabin.cue
 
     def _begin(self, vehicle: VehicleState, w_S: Vec3, f_S: Vec3) -> tuple[Cabin, ForceDirection]:

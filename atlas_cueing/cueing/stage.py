@@ -10,8 +10,7 @@ brakes with the natural frequency omega and comes back to the centre with omega_
 A tanh(d / A), so that no demand whatever, by the L1 norms of the filter, can drive p, v or a out of their bounds.
 """
 
-from functools import cache
-from math import exp, pi, tanh
+from math import e, exp, pi, tanh
 
 from ..rotation import ZERO, Quat, Vec3, add, cross, flip, rotate, scale, subtract
 from ..signals import STANDARD_GRAVITY, StageLimits
@@ -19,7 +18,6 @@ from .damping import CriticalDamping
 from .parameters import StageParameters
 
 _GRAVITY_W: Vec3 = (0.0, 0.0, -STANDARD_GRAVITY)
-_SHARE = 0.95  # of travel, speed and acceleration that the worst demand may use
 
 
 class OnsetFilter:
@@ -56,8 +54,9 @@ class StageCueing:
         """head_S: the rider's head from the sphere centre, m, frame S; dt in s."""
         self._dt, self._gain, self._head = dt, parameters.force_gain, head_S
         travel = [min(pair) for pair in zip(limits.travel, parameters.travel, strict=True)]
-        each = zip(parameters.onset, parameters.recentre, travel, limits.speed, limits.acceleration, strict=True)
-        self._axes = [OnsetFilter(dt, *axis[:2], parameters.bandwidth, _bound(parameters.bandwidth, *axis)) for axis in each]
+        bounds = map(demand_bound, parameters.onset, travel, limits.speed, limits.acceleration)
+        each = zip(parameters.onset, parameters.recentre, bounds, strict=True)
+        self._axes = [OnsetFilter(dt, onset, recentre, parameters.bandwidth, bound) for onset, recentre, bound in each]
         self._w_before: Vec3 | None = None
 
     def step(self, q_WS: Quat, w_WS_W: Vec3, f_B: Vec3) -> tuple[Vec3, Vec3, Vec3]:
@@ -78,23 +77,11 @@ class StageCueing:
         return add(cross(alpha, r), cross(w_WS_W, cross(w_WS_W, r)))
 
 
-@cache
-def worst_response(onset: float, recentre: float, bandwidth: float) -> Vec3:
-    """Largest |p|, |v| and |a| per 1 m/s^2 of demand bound, over all demands: the L1 norms of the filter's responses.
+def demand_bound(onset: float, travel: float, speed: float, acceleration: float) -> float:
+    """Largest demand A (m/s^2) that keeps the filter inside travel, speed and acceleration, whatever it was and is.
 
-    Sampled finely against the onset, over as long as the slowest pole takes to forget.
+    |u| <= 2 A, since the lasting part of a demand within A is within A. The L1 norms of 1, s and s^2 over (s + omega)^2 are
+    1 / omega^2, 2 / (e omega) and 2 + 2 / e^2.
     """
-    dt = 0.02 / onset
-    axis = OnsetFilter(dt, onset, recentre, bandwidth, 1e9)
-    axis.step(0.0)
-    p, v, a = (abs(x) for x in axis.step(1.0))
-    for _ in range(int(8.0 / (recentre or onset) / dt)):
-        each = axis.step(0.0)
-        p, v, a = p + abs(each[0]), v + abs(each[1]), a + abs(each[2])
-    return (p, v, a)
-
-
-def _bound(bandwidth: float, onset: float, recentre: float, travel: float, speed: float, acceleration: float) -> float:
-    """Largest demand (m/s^2) that keeps the filter inside travel, speed and acceleration whatever its history."""
-    worst = worst_response(onset, recentre, bandwidth)
-    return _SHARE * min(travel / worst[0], speed / worst[1], acceleration / worst[2])
+    worst = (1.0 / onset**2, 2.0 / (e * onset), 2.0 + 2.0 / e**2)
+    return 0.5 * min(travel / worst[0], speed / worst[1], acceleration / worst[2])

@@ -9,7 +9,7 @@ from math import atan2, pi
 from ..rotation import ZERO, Quat, Vec3, add, cross, dot, flip, multiply, norm, rotate, scale, shortest_arc, up_in_body
 from ..signals import VehicleState
 from .cabin import upright
-from .damping import CriticalDamping
+from .damping import DampedVector
 
 _UP: Vec3 = (0.0, 0.0, 1.0)
 
@@ -35,8 +35,15 @@ def misalignment(q_WS: Quat, f_S: Vec3, hold: float) -> Vec3:
     axis, along = cross(f_S, up_S), dot(f_S, up_S)
     size = norm(axis)
     if weight == 0.0 or size <= 1e-9 * force:
-        return (weight * pi, 0.0, 0.0) if along < 0.0 else ZERO  # opposite: any axis will do, roll is taken
+        return scale(weight * pi, _across(up_S)) if along < 0.0 else ZERO
     return scale(weight * atan2(size, along) / size, axis)
+
+
+def _across(up_S: Vec3) -> Vec3:
+    """A unit vector across up_S, near the roll axis where that can be: any will do for a force straight down."""
+    x, y, z = up_S
+    across = (1.0 - x * x, -x * y, -x * z) if abs(x) < 0.7 else (-y * x, 1.0 - y * y, -y * z)
+    return scale(1.0 / norm(across), across)
 
 
 def presence(force: float, hold: float) -> float:
@@ -58,19 +65,17 @@ class ForceDirection:
 
     def __init__(self, dt: float, bandwidth: float, hold: float, f_S: Vec3) -> None:
         """Begin with the lasting force f_S, m/s^2; natural frequency `bandwidth` in rad/s; dt in s."""
-        self._damping, self._hold = CriticalDamping(bandwidth, dt), hold
-        self.f_S, self._rate = f_S, ZERO
+        self._force, self._hold = DampedVector(bandwidth, dt, f_S), hold
 
-    def step(self, f_S: Vec3) -> None:
-        """Take the force one tick on, m/s^2 in S."""
-        (x, y, z), (vx, vy, vz), step = self.f_S, self._rate, self._damping.step
-        (x, vx), (y, vy), (z, vz) = step(x, vx, f_S[0]), step(y, vy, f_S[1]), step(z, vz, f_S[2])
-        self.f_S, self._rate = (x, y, z), (vx, vy, vz)
+    def step(self, f_S: Vec3) -> Vec3:
+        """Take the force one tick on; the filtered force, m/s^2 in S."""
+        return self._force.step(f_S)
 
     def carried(self, w_S: Vec3) -> Vec3:
         """Rate (rad/s, S) that carries W's up along with f, and the cabin about it with the vehicle's rate w_S."""
-        force = norm(self.f_S)
+        f_S, rate = self._force.x, self._force.v
+        force = norm(f_S)
         there = presence(force, self._hold)
-        share = there / max(force, self._hold) ** 2
-        with_force = add(scale(share, cross(self._rate, self.f_S)), scale(share * dot(w_S, self.f_S), self.f_S))
-        return add(with_force, scale(1.0 - there, w_S))
+        along = scale(1.0 / max(force, self._hold), f_S)
+        across = cross(scale(1.0 / max(force, self._hold), rate), along)
+        return add(scale(there, add(across, scale(dot(w_S, along), along))), scale(1.0 - there, w_S))

@@ -55,6 +55,14 @@ class StageTable(Table):
     travel_m: Travels | None = None
 
 
+class ClassicalStageTable(StageTable):
+    """`[cueing.stage]` of the method `classical`: see CLASSICAL_STAGE."""
+
+    onset_rad_s: Frequencies = CLASSICAL_STAGE.onset
+    recentre_rad_s: Corners = CLASSICAL_STAGE.recentre
+    travel_m: Travels | None = CLASSICAL_STAGE.travel
+
+
 class _Method(Table):
     """What every method has."""
 
@@ -124,9 +132,7 @@ class ClassicalTable(_Method):
     tilt_low_pass_rad_s: Frequency = _CLASSICAL.tilt_low_pass
     tilt_rate_deg_s: TurnRate = _degrees(_CLASSICAL.tilt_rate)
     angle_limit_deg: Annotated[float, number(0.0, 1e6, above=True)] = _degrees(_CLASSICAL.angle_limit)
-    stage: StageTable = StageTable(
-        onset_rad_s=CLASSICAL_STAGE.onset, recentre_rad_s=CLASSICAL_STAGE.recentre, travel_m=CLASSICAL_STAGE.travel
-    )
+    stage: ClassicalStageTable = ClassicalStageTable()
 
     def parameters(self) -> MethodParameters:
         """Parameters of the method, SI."""

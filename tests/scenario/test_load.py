@@ -83,6 +83,19 @@ def test_another_method_leaves_the_files_own_keys_behind(tmp_path: Path) -> None
         load_scenario(path, ["cueing.method=attitude", "cueing.align_time_s=2"])
 
 
+@pytest.mark.parametrize("method", ["attitude", "blend", "classical", "force"])
+def test_any_method_from_the_command_line(tmp_path: Path, method: str) -> None:
+    """From a file of another method; the keys that both have stay, the others are left behind."""
+    keys = "rotation_gain = 0.5\nalign_time_s = 3.0\n[cueing.stage]\nonset_rad_s = 2"
+    path = written(tmp_path, SCRIPT + f'[cueing]\nmethod = "blend"\n{keys}')
+    cueing = load_scenario(path, [f"cueing.method={method}"]).file.cueing
+    assert cueing.method == method
+    assert cueing.rotation_gain == (0.5, 0.5, 0.5)
+    assert cueing.stage.onset_rad_s == (2.0, 2.0, 2.0)
+    other = load_scenario(path, [f"cueing.method={method}", "cueing.stage.onset_rad_s=[1,2,3]"]).file.cueing
+    assert other.stage.onset_rad_s == (1.0, 2.0, 3.0)
+
+
 def test_a_wrong_key_is_not_left_behind(tmp_path: Path) -> None:
     path = written(tmp_path, SCRIPT + "[cueing]\nalign_tim_s = 3.0")
     with pytest.raises(ScenarioError, match="align_tim_s"):
@@ -90,8 +103,8 @@ def test_a_wrong_key_is_not_left_behind(tmp_path: Path) -> None:
 
 
 def test_an_unknown_method_from_the_command_line(tmp_path: Path) -> None:
-    with pytest.raises(ScenarioError, match=r"^--set: cueing\.method = 'force': allowed: attitude, blend$"):
-        load_scenario(written(tmp_path), ["cueing.method=force"])
+    with pytest.raises(ScenarioError, match=r"^--set: cueing\.method = 'hexapod': allowed: attitude, blend, classical, force$"):
+        load_scenario(written(tmp_path), ["cueing.method=hexapod"])
 
 
 def test_inputs_from_the_command_line(tmp_path: Path) -> None:
@@ -140,7 +153,10 @@ KEYS += [
     "cueing",
     "cueing.method",
     "cueing.stage",
+    "cueing.stage.travel_m",
+    "cueing.stage.onset_rad_s",
     "cueing.force_gain",
+    "cueing.angle_limit_deg",
     "recording",
 ]
 KEYS += [
