@@ -53,3 +53,10 @@ def test_each_stage_is_given_what_the_one_before_made() -> None:
         assert drive.motions[-1] == motion
     assert len(drive.motions) == 20
     assert tick.motion.w_WS_W != ZERO
+
+
+def test_a_block_is_the_same_ticks_as_step_by_step() -> None:
+    one, other = (Pipeline(cueing(), smoothing(), WHEELS) for _ in range(2))
+    by_step = [one.step(state) for state in states()]
+    by_block = [*other.block(states()[:7]), *other.block([]), *other.block(states()[7:])]
+    assert by_block == by_step

@@ -1,19 +1,26 @@
 """Sources of vehicle states; the only place that knows feet, pounds and knots.
 
-A `ScriptFlight` or an `AircraftFlight` says what to fly and `JsbsimVehicle` flies it, as a `signals.Vehicle`.
+A `ScriptFlight` or an `AircraftFlight` says what to fly and `JsbsimVehicle` flies it, as a `signals.Vehicle`; a `SignalFlight`
+is flown by a `SignalVehicle`, and a `RecordedVehicle` plays recorded states back.
 """
 
 from .bounds import Bounds
 from .flights import AircraftFlight, InitialConditions, ScriptFlight, TimedInput
 from .jsbsim_vehicle import JsbsimVehicle
 from .library import own_aircraft, own_scripts, suggestion
+from .recorded import RecordedVehicle
+from .signal import Signal, SignalFlight, SignalVehicle
 
 __all__ = [
     "AircraftFlight",
     "Bounds",
     "InitialConditions",
     "JsbsimVehicle",
+    "RecordedVehicle",
     "ScriptFlight",
+    "Signal",
+    "SignalFlight",
+    "SignalVehicle",
     "TimedInput",
     "own_aircraft",
     "own_scripts",

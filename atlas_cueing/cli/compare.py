@@ -1,0 +1,65 @@
+"""`atlas-cueing compare`: the same flight cued in several ways."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from ..review import Comparison
+
+EPILOG = """
+Examples:
+
+  atlas-cueing compare blend.mcap attitude.mcap
+
+  atlas-cueing compare blend.mcap attitude.mcap --html both.html
+"""
+
+_LONGEST_NAME = 16  # characters of a column's head
+
+
+def compare(
+    logs: Annotated[list[Path], typer.Argument(help="Two or more logs (MCAP) of one flight.", metavar="LOG LOG...")],
+    html: Annotated[
+        Path | None, typer.Option("--html", metavar="FILE", help="Write overlaid plots into one file for a browser.")
+    ] = None,
+    different_flights: Annotated[
+        bool, typer.Option("--different-flights", help="Compare although the vehicle did not fly the same in all.")
+    ] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Replace an existing HTML file.")] = False,
+) -> None:
+    """Put several logs of one flight side by side.
+
+    Exit status 0: all are clean. 1: one has a finding or cannot be read. 2: bad usage, or logs of different flights.
+    """
+    from ..review import compare as compared
+    from .page import check_page
+    from .text import one_json
+
+    check_page(html, force=force)
+    comparison = compared(logs, different_flights=different_flights)
+    if html:
+        from ..review.page import write_comparison
+
+        write_comparison(comparison, html)
+    typer.echo(one_json(comparison.to_json()) if as_json else comparison_table(comparison))
+    if not comparison.clean:
+        for name, each in zip(comparison.names, comparison.reviews, strict=True):
+            for finding in each.findings:
+                typer.echo(f"{name}: {finding}", err=True)
+        raise typer.Exit(1)
+
+
+def comparison_table(comparison: "Comparison") -> str:
+    """Every metric in a row, every log in a column; angles in degrees, shares in percent."""
+    from ..review.figures import Figure
+
+    heads = [name if len(name) <= _LONGEST_NAME else f"{name[: _LONGEST_NAME - 2]}.." for name in comparison.names]
+    rows = [("", heads), ("verdict", [each.verdict for each in comparison.reviews])]
+    for name in comparison.metric_names():
+        figure = Figure.of(name)
+        rows.append((figure.title, [figure.text(each.metrics.get(name)) for each in comparison.reviews]))
+    width = max(len(shown) for shown, _ in rows)
+    return "\n".join(f"{shown:<{width}}" + "".join(f"  {cell:>{_LONGEST_NAME}}" for cell in cells) for shown, cells in rows)

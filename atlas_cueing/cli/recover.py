@@ -1,0 +1,42 @@
+"""`atlas-cueing recover`: what is whole in a broken log."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+EPILOG = """
+Examples:
+
+  atlas-cueing recover broken.mcap -o fixed.mcap
+
+  atlas-cueing recover flight.mcap.part -o flight.mcap
+"""
+
+
+def recover(
+    broken: Annotated[Path, typer.Argument(help="A cut or damaged log, or the .part of a killed run.", metavar="BROKEN")],
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="FIXED", help="Log to write.")],
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Replace an existing log.")] = False,
+) -> None:
+    """Save what is whole in a broken log.
+
+    Every complete chunk of a cut or damaged log goes into a new, finished one; what was lost is said.
+
+    Exit status 0: written. 1: nothing in it can be recovered. 2: bad usage, nothing was written.
+    """
+    from ..batch import check_output
+    from ..errors import InputError
+    from ..review import recover as recovered
+    from .text import aligned, one_json
+
+    check_output(output, force=force)
+    if output.exists() and broken.exists() and output.samefile(broken):
+        raise InputError(f"log {output}: is the broken log itself; choose another name")
+    result = recovered(broken, output)
+    if as_json:
+        typer.echo(one_json(result.to_json()))
+        return
+    rows = [("log", str(result.log)), ("recovered", f"{result.seconds:.2f} s, {result.ticks} ticks")]
+    typer.echo("\n".join(aligned([*rows, *[("lost", lost) for lost in result.lost or ("nothing",)]], "")))

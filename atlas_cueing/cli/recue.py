@@ -1,0 +1,48 @@
+"""`atlas-cueing recue`: a recorded flight cued in another way."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+EPILOG = """
+Examples:
+
+  atlas-cueing recue f16_loop.mcap --set cueing.method=attitude -o attitude.mcap
+
+  atlas-cueing recue f16_loop.mcap --set platform.preset=atlas-1.5m -o small.mcap
+"""
+
+
+def recue(
+    log: Annotated[Path, typer.Argument(help="Log (MCAP) whose flight is used.", metavar="LOG")],
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="NEW", help="Log to write.")],
+    settings: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="Set any key of cueing, platform or recording; repeatable."),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the review of the new log as one JSON object.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Replace an existing log.")] = False,
+) -> None:
+    """Cue a recorded flight in another way.
+
+    The vehicle in the log goes through another method, other parameters or another platform. Without --set the new log
+    repeats the old one's cue, motion and wheels exactly.
+
+    Exit status 0: written and clean. 1: the new log has a finding, or the old one is damaged. 2: bad input, nothing written.
+    """
+    from ..batch import check_output
+    from ..errors import InputError
+    from ..review import recue as recued
+    from ..review import review as judged
+    from .review import review_summary
+    from .text import one_json
+
+    check_output(output, force=force)
+    if output.exists() and log.exists() and output.samefile(log):
+        raise InputError(f"log {output}: is the log that is read; choose another name")
+    recued(log, settings or (), output)
+    found = judged(output)
+    typer.echo(one_json(found.to_json()) if as_json else review_summary(found))
+    if not found.clean:
+        raise typer.Exit(1)

@@ -1,0 +1,86 @@
+"""`atlas-cueing review`: what a log says, and whether to believe it."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..errors import LogError
+
+if TYPE_CHECKING:
+    from ..review import Review
+
+EPILOG = """
+Examples:
+
+  atlas-cueing review f16_rolls.mcap
+
+  atlas-cueing review f16_rolls.mcap --html f16_rolls.html --replay f16_rolls_3d.html
+
+  atlas-cueing review f16_rolls.mcap --json
+"""
+
+_SHOWN = 20  # findings printed; --json has all
+
+
+def review(
+    log: Annotated[Path, typer.Argument(help="Log (MCAP) of atlas-cueing.", metavar="LOG")],
+    html: Annotated[
+        Path | None, typer.Option("--html", metavar="FILE", help="Write plots of everything into one file for a browser.")
+    ] = None,
+    replay: Annotated[
+        Path | None, typer.Option("--replay", metavar="FILE", help="Write a 3D replay into one file for a browser.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Replace existing HTML files.")] = False,
+) -> None:
+    """Judge a log by its own numbers.
+
+    Looked at are every limit, wheels against motion, orientation, felt force, time, and the states of the run.
+
+    Exit status 0: nothing was found. 1: a finding, or the log is damaged or not one of ours. 2: bad usage.
+    """
+    from ..review import advice
+    from ..review import review as judged
+    from .page import check_page
+    from .text import one_json
+
+    for file in (html, replay):
+        check_page(file, force=force)
+    try:
+        found = judged(log)
+    except LogError as error:
+        if as_json:
+            typer.echo(one_json({"verdict": "unreadable", "result": "", "reason": str(error), "log": str(log)}))
+        todo = advice(log)
+        raise LogError(f"{error}; {todo}" if todo else str(error)) from error
+    if html:
+        from ..review.page import write_page
+
+        write_page(found, html)
+    if replay:
+        from ..review.replay import write_replay
+
+        write_replay(found, replay)
+    typer.echo(one_json(found.to_json()) if as_json else review_summary(found))
+    if not found.clean:
+        raise typer.Exit(1)
+
+
+def review_summary(found: "Review") -> str:
+    """Verdict first, then what it is about, the figures, notes and findings."""
+    from ..review.figures import headlines
+    from .text import aligned
+
+    metadata = found.run.log.metadata
+    head = [
+        ("verdict", found.verdict),
+        ("result", f"{metadata.get('result', '')}  {metadata.get('reason', '')}".rstrip()),
+        ("log", str(found.run.log.path)),
+        ("scenario", f"{metadata.get('scenario', '')}, {metadata.get('method', '')} on {metadata.get('platform', '')}"),
+        ("flight", f"{found.duration:.2f} s, {len(found.run.flight.time)} ticks, step {1e3 * found.run.step:.4f} ms"),
+    ]
+    rows = [*head, *headlines(found.metrics), *[("note", note) for note in found.notes]]
+    lines = aligned([*rows, *[("finding", str(finding)) for finding in found.findings[:_SHOWN]]], "")
+    left = len(found.findings) - _SHOWN
+    return "\n".join([*lines, *([f"and {left} more findings; --json has all"] if left > 0 else [])])

@@ -1,0 +1,24 @@
+"""From a log to a verdict, a picture and a comparison, by arithmetic of its own."""
+
+from .comparison import Comparison, compare
+from .finding import Finding
+from .recorded_run import RecordedRun, open_log, open_run
+from .recover import Recovered, advice, recover
+from .recue import recue
+from .review import Review, judge, review
+
+__all__ = [
+    "Comparison",
+    "Finding",
+    "RecordedRun",
+    "Recovered",
+    "Review",
+    "advice",
+    "compare",
+    "judge",
+    "open_log",
+    "open_run",
+    "recover",
+    "recue",
+    "review",
+]

@@ -1,0 +1,49 @@
+"""The files inside a log: the scenario and the platform it was flown with."""
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from ..errors import LogError, ScenarioError
+from ..recording import Log
+from ..scenario import Platform, load_platform
+
+SCENARIO, PLATFORM = "scenario.toml", "platform.toml"
+LARGEST = 1 << 20  # bytes; a scenario may have 256 kB, a user's script some more
+
+
+@contextmanager
+def unpacked(log: Log) -> Iterator[Path]:
+    """A folder that holds the log's files until the end. Raises LogError for names that lead elsewhere, and for large files."""
+    _check(log)
+    with TemporaryDirectory(prefix="atlas-cueing-") as name:
+        folder = Path(name)
+        for file, content in log.attachments.items():
+            (folder / file).write_bytes(content)
+        yield folder
+
+
+def platform_of(log: Log) -> Platform:
+    """The platform of a log. Raises LogError when the log has none that can be read."""
+    if PLATFORM not in log.attachments:
+        raise LogError(f"{log.path}: the log does not hold {PLATFORM}, so its limits and wheels are unknown")
+    with unpacked(log) as folder:
+        try:
+            return load_platform(str(folder / PLATFORM))
+        except ScenarioError as error:
+            raise LogError(f"{log.path}: " + as_inside(error, folder)) from error
+
+
+def as_inside(error: Exception, folder: Path) -> str:
+    """The error's text in one line, with the folder's files named as the log's own."""
+    return "; ".join(str(error).replace(f"{folder}/", "the log's ").splitlines())
+
+
+def _check(log: Log) -> None:
+    files: Mapping[str, bytes] = log.attachments
+    for name, content in files.items():
+        if not name.isprintable() or Path(name).name != name or len(name.encode()) > 200:
+            raise LogError(f"{log.path}: an attachment is called {name[:60]!r}, allowed: a plain file name")
+        if len(content) > LARGEST:
+            raise LogError(f"{log.path}: attachment {name!r} has {len(content)} bytes, allowed: at most {LARGEST}")

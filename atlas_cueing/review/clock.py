@@ -1,0 +1,39 @@
+"""Is time whole? Every topic has every tick, and the ticks are one step apart."""
+
+import numpy as np
+
+from .finding import Finding, exceeding
+from .recorded_run import TOPICS, RecordedRun
+
+UNEVEN = 1e-3  # of a step; times are step counts times dt, exact to 1e-12 of a step for an hour
+GAP = 1.5  # steps; from here on a tick is missing
+
+
+def check_clock(run: RecordedRun) -> list[Finding]:
+    """Ticks missing from one topic or from all, topics that disagree on the time, time that is uneven or runs back."""
+    times = {topic: run.log.column(topic, "time_s") for topic in TOPICS}
+    counts = {topic: len(time) for topic, time in times.items()}
+    if len(set(counts.values())) > 1:
+        return [_lost(times, counts)]
+    time, step = run.flight.time, run.step
+    found = []
+    for topic in TOPICS:
+        found += exceeding("time differs from /motion", [f"{topic} time_s"], time, times[topic] - time, 0.0, "s")
+    steps = np.diff(time)
+    if len(steps):
+        back, gap = steps <= 0.0, steps > GAP * step
+        uneven = np.where(back | gap, 0.0, steps - step)
+        found += exceeding("time runs back", ["/motion time_s"], time[1:], np.where(back, steps - step, 0.0), 0.0, "s")
+        found += exceeding("gap", ["/motion time_s"], time[1:], np.where(gap, steps, 0.0), GAP * step, "s", quantity="step")
+        found += exceeding("uneven time", ["/motion time_s"], time[1:], uneven, UNEVEN * step, "s", quantity="|step - median|")
+    return found
+
+
+def _lost(times: dict[str, np.ndarray], counts: dict[str, int]) -> Finding:
+    """Where the shortest topic first lacks a tick that the longest has."""
+    few, many = min(counts, key=lambda t: counts[t]), max(counts, key=lambda t: counts[t])
+    short, long = times[few], times[many]
+    same = short == long[: len(short)]
+    first = float(long[len(short) if same.all() else int(np.argmin(same))])
+    text = f"{counts[few]} messages where {many} has {counts[many]}; all later columns are out of step and were not checked"
+    return Finding("ticks lost", few, first, text)

@@ -1,0 +1,54 @@
+"""What is wrong with a log: which check, where, when, how much and what would be allowed."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One fault of a log.
+
+    check: the rule that is broken, a word or two; place: topic and quantity; time: where it is worst, s, None when it belongs
+    to the whole log; text: the evidence.
+    """
+
+    check: str
+    place: str
+    time: float | None
+    text: str
+
+    def __str__(self) -> str:
+        when = "" if self.time is None else f"{self.time:.6f} s "
+        return f"{when}{self.place}: {self.check}: {self.text}"
+
+    def to_json(self) -> dict[str, object]:
+        """By name; `time_s` is None when the finding belongs to the whole log."""
+        return {"check": self.check, "place": self.place, "time_s": self.time, "text": self.text}
+
+
+def exceeding(
+    check: str, places: Sequence[str], time: Array, values: Array, allowed: ArrayLike, unit: str, *, quantity: str = "|value|"
+) -> list[Finding]:
+    """One finding for each column of `values` (n,) or (n, k) whose magnitude exceeds `allowed` anywhere.
+
+    `time` (n,) in s; `allowed` broadcasts against (n, k), in `unit`. NaN is not judged here: `numbers` has found it already.
+    """
+    size = np.abs(np.atleast_2d(values.T).T)
+    bounds = np.broadcast_to(np.asarray(allowed, dtype=np.float64), size.shape)
+    found = []
+    for k in np.flatnonzero((size > bounds).any(axis=0)).tolist():
+        beyond = size[:, k] > bounds[:, k]
+        worst = int(np.argmax(np.where(beyond, size[:, k] / np.maximum(bounds[:, k], 1e-300), -1.0)))
+        text = f"{quantity} = {size[worst, k]:.9g} {unit}, allowed: {quantity} <= {bounds[worst, k]:.9g} {unit}"
+        found.append(Finding(check, places[k], float(time[worst]), f"{text}{_ticks(beyond, time)}"))
+    return found
+
+
+def _ticks(beyond: NDArray[np.bool_], time: Array) -> str:
+    count, first = int(beyond.sum()), float(time[int(np.argmax(beyond))])
+    return f" (the worst of {count} ticks, the first at {first:.6f} s)" if count > 1 else ""

@@ -1,0 +1,133 @@
+"""One self-contained HTML file of a review or a comparison: it opens from disk, without any network."""
+
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..errors import InputError, OutputError
+from .comparison import Comparison
+from .figures import Figure, headlines
+from .review import Review
+
+if TYPE_CHECKING:
+    from plotly.graph_objects import Figure as Plot
+
+_STYLE = """
+body { font-family: system-ui, sans-serif; margin: 1.2em auto; max-width: 1500px; padding: 0 1em; color: #1b2733; }
+h1 { font-size: 1.5em; margin: 0.2em 0; } h2 { font-size: 1.15em; margin: 1.4em 0 0.3em; }
+.verdict { display: inline-block; padding: 0.15em 0.7em; border-radius: 0.4em; color: white; background: #c00000; }
+.verdict.clean { background: #2e7d32; }
+.columns { display: flex; flex-wrap: wrap; gap: 0 3em; align-items: flex-start; }
+table { border-collapse: collapse; margin: 0.5em 0; } td, th { padding: 0.1em 0.9em 0.1em 0; text-align: left; }
+td.number { text-align: right; font-variant-numeric: tabular-nums; } td:first-child { color: #5a6a7a; }
+li.finding { color: #c00000; } details { margin: 0.5em 0; }
+"""
+
+
+def write_page(found: Review, file: Path) -> None:
+    """Write the review with plots of everything into `file`.
+
+    Raises InputError when plotly is not installed and OutputError when the file cannot be written.
+    """
+    plots = _plots()
+    run = found.run
+    sections = [
+        ("", _header(found)),
+        ("", _findings(found)),
+        ("Over time: drag to zoom, double-click to see all", plots.over_time(found)),
+        ("In space", plots.in_space(run)),
+        ("Use of the limits", plots.limit_bars(run)),
+        ("Power spectra", plots.spectra(run)),
+        ("Every figure", _metrics(["value"], found.metrics.keys(), [found.metrics])),
+    ]
+    _write(file, run.log.metadata.get("scenario", "") or run.log.path.name, sections)
+
+
+def write_comparison(comparison: Comparison, file: Path) -> None:
+    """Write the runs side by side into `file`. Raises as `write_page`."""
+    plots = _plots()
+    runs = [each.run for each in comparison.reviews]
+    heads = "".join(
+        f"<tr><td>{escape(name)}</td><td>{_verdict(each)}</td><td>{escape(str(each.run.log.path))}</td></tr>"
+        for name, each in zip(comparison.names, comparison.reviews, strict=True)
+    )
+    sections = [
+        ("", f"<h1>{' against '.join(escape(name) for name in comparison.names)}</h1><table>{heads}</table>"),
+        ("Rider less pilot", plots.overlays(comparison.names, runs)),
+        ("Every figure", _metrics(comparison.names, comparison.metric_names(), [each.metrics for each in comparison.reviews])),
+    ]
+    _write(file, " against ".join(comparison.names), sections)
+
+
+def _plots() -> Any:
+    """The module of plots; plotly comes with an extra and takes half a second to load."""
+    try:
+        from . import plots
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] != "plotly":
+            raise
+        raise InputError("HTML pages need plotly; install it with: pip install 'atlas_cueing[report]'") from error
+    return plots
+
+
+def _header(found: Review) -> str:
+    """Verdict first, then what was flown and the figures that tell most."""
+    metadata = found.run.log.metadata
+    told = [
+        ("log", str(found.run.log.path)),
+        ("flight", f"{found.duration:.2f} s, {len(found.run.flight.time)} ticks"),
+        *((key.replace("_", " "), value) for key, value in metadata.items() if value),
+    ]
+    title = metadata.get("scenario", "") or found.run.log.path.name
+    return (
+        f"<h1>{escape(title)} {_verdict(found)}</h1><div class='columns'>"
+        f"{_table(told)}{_table(headlines(found.metrics), number=True)}</div>"
+    )
+
+
+def _verdict(found: Review) -> str:
+    return f"<span class='verdict{' clean' if found.clean else ''}'>{escape(found.verdict)}</span>"
+
+
+def _findings(found: Review) -> str:
+    lines = [f"<li class='finding'>{escape(str(finding))}</li>" for finding in found.findings]
+    lines += [f"<li>{escape(note)}</li>" for note in found.notes]
+    return f"<h2>Findings and notes</h2><ul>{''.join(lines)}</ul>" if lines else ""
+
+
+def _table(rows: Sequence[tuple[str, str]], *, number: bool = False) -> str:
+    kind = " class='number'" if number else ""
+    return "<table>" + "".join(f"<tr><td>{escape(a)}</td><td{kind}>{escape(b)}</td></tr>" for a, b in rows) + "</table>"
+
+
+def _metrics(heads: Sequence[str], names: Any, columns: Sequence[dict[str, float]]) -> str:
+    """All metrics, one column a log, folded away."""
+    rows = [f"<tr><th></th>{''.join(f'<th>{escape(head)}</th>' for head in heads)}</tr>"]
+    for name in names:
+        figure = Figure.of(name)
+        cells = "".join(f"<td class='number'>{figure.text(column.get(name))}</td>" for column in columns)
+        rows.append(f"<tr><td>{escape(figure.title)}</td>{cells}</tr>")
+    return f"<details><summary>{len(rows) - 1} figures</summary><table>{''.join(rows)}</table></details>"
+
+
+def _write(file: Path, title: str, sections: "Sequence[tuple[str, str | Plot]]") -> None:
+    from plotly.offline import get_plotlyjs
+
+    pieces = [
+        f"<!doctype html><html lang='en'><head><meta charset='utf-8'><title>{escape(title)}</title>",
+        f"<style>{_STYLE}</style><script>{get_plotlyjs()}</script></head><body>",
+    ]
+    for heading, content in sections:
+        pieces.append(f"<h2>{escape(heading)}</h2>" if heading else "")
+        pieces.append(content if isinstance(content, str) else _html(content))
+    try:
+        file.write_text("".join([*pieces, "</body></html>\n"]), encoding="utf-8")
+    except OSError as error:
+        raise OutputError(f"page {file}: {error.strerror}") from error
+
+
+def _html(plot: "Plot") -> str:
+    """One plot as a part of the page, whose script has been read already."""
+    html: str = plot.to_html(full_html=False, include_plotlyjs=False, config={"displaylogo": False, "responsive": True})
+    return html

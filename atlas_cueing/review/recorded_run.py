@@ -1,0 +1,83 @@
+"""A log opened for review: its columns, its platform, and the platform's matrices by review's own arithmetic."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import InputError
+from ..evaluation import Flight
+from ..recording import Log, read_log
+from ..scenario import Platform
+from .attachments import platform_of
+from .finding import Array
+
+# A log of ours packs to four fifths in flight and to a sixth standing still. What a file unpacks to is bounded by its own
+# size, or 30 kB could fill the memory.
+LARGEST_RATIO = 16
+SMALLEST_BOUND = 32 << 20  # bytes
+TOPICS = ("/vehicle", "/cue", "/motion", "/wheels", "/felt")
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedRun:
+    """What review looks at; `flight` has equally many rows everywhere, as many as the shortest topic of `log`."""
+
+    log: Log
+    platform: Platform
+    flight: Flight
+
+    @property
+    def step(self) -> float:
+        """Time from one tick to the next, s: the median; 0 for fewer than two ticks."""
+        return float(np.median(np.diff(self.flight.time))) if len(self.flight.time) > 1 else 0.0
+
+    def wheels_from_sphere(self) -> Array:
+        """J^-1 (3, 3) from the platform file: row i is R / r_i (contact_i x drive_i), unit and tangent (Eq. 11, 22)."""
+        radius, rows = self.platform.sphere.radius_m, []
+        for wheel in self.platform.wheel:
+            contact = np.array(wheel.contact) / np.linalg.norm(wheel.contact)
+            drive = np.array(wheel.drive) - np.dot(wheel.drive, contact) * contact
+            rows.append(radius / wheel.radius_m * np.cross(contact, drive / np.linalg.norm(drive)))
+        return np.array(rows)
+
+    def sphere_from_wheels(self) -> Array:
+        """J (3, 3), the inverse (Eq. 18)."""
+        inverse: Array = np.linalg.inv(self.wheels_from_sphere()).astype(np.float64)
+        return inverse
+
+
+def open_run(path: Path) -> RecordedRun:
+    """Read a log with its platform.
+
+    Raises InputError when there is no such file and LogError when it is damaged, not a log of ours, or lacks a topic or the
+    platform that it was flown on.
+    """
+    log = open_log(path)
+    flight = Flight.of(_even(log))
+    return RecordedRun(log, platform_of(log), flight)
+
+
+def open_log(path: Path) -> Log:
+    """Read a log. Raises InputError when there is no such file and LogError when it is damaged or not ours."""
+    return read_log(path, largest_content(path))
+
+
+def largest_content(path: Path) -> int:
+    """Bytes that the file may unpack to. Raises InputError when it is no file."""
+    try:
+        if not path.is_file():
+            raise InputError(f"log {path}: no such file" if not path.exists() else f"log {path}: not a regular file")
+        return max(SMALLEST_BOUND, LARGEST_RATIO * path.stat().st_size)
+    except (OSError, ValueError) as error:  # a name that is too long; a NUL in it
+        raise InputError(f"log {path}: {error}") from error
+
+
+def _even(log: Log) -> Log:
+    """The log with all topics cut to the length of the shortest."""
+    lengths = {topic: len(log.column(topic, "time_s")) for topic in TOPICS}
+    if len(set(lengths.values())) == 1:
+        return log
+    shortest = min(lengths.values())
+    tables = {t: replace(log.tables[t], values=log.tables[t].values[:shortest]) for t in TOPICS}
+    return replace(log, tables=tables)

@@ -1,0 +1,101 @@
+"""The recorded vehicle of a log through another method, other parameters or another platform."""
+
+from collections.abc import Sequence
+from importlib.metadata import version
+from pathlib import Path
+
+from ..errors import InputError, LogError, OutputError, ScenarioError
+from ..recording import Log, McapRecorder
+from ..rotation import Quat, Vec3
+from ..scenario import Scenario, build, load_scenario
+from ..signals import VehicleState
+from ..vehicles import RecordedVehicle
+from .attachments import SCENARIO, as_inside, unpacked
+from .recorded_run import open_log
+
+_FLOWN = ("vehicle", "duration_s")  # keys of what has been flown already
+
+
+def recue(path: Path, settings: Sequence[str], output: Path) -> Scenario:
+    """Write `output`, the flight of the log `path` cued anew with `KEY=VALUE` settings on top of the log's own scenario.
+
+    Without settings, cue, motion and wheels are the log's own to the last bit. States, result and reason are the flight's, so
+    they are kept. Gives the scenario. Raises InputError (nothing was written) for settings that do not fit, LogError for a log
+    that is damaged or holds no scenario.
+    """
+    _refuse_flown(settings)
+    log = open_log(path)
+    if SCENARIO not in log.attachments:
+        raise LogError(f"{path}: the log does not hold {SCENARIO}, so there is nothing to cue it by")
+    vehicle = recorded_vehicle(log)
+    with unpacked(log) as folder:
+        try:
+            scenario = load_scenario(folder / SCENARIO, [_from_here(text) for text in settings])
+        except ScenarioError as error:
+            raise InputError("\n".join(as_inside(ScenarioError([mistake]), folder) for mistake in error.mistakes)) from error
+        attachments = scenario.attachments()
+    pipeline = build(scenario, vehicle.dt)
+    recorder = _recorder(output, scenario, log, attachments)
+    try:
+        recorder.append(pipeline.step(vehicle.state))
+        while vehicle.advance():
+            recorder.append(pipeline.step(vehicle.state))
+        for status in log.statuses:
+            recorder.status(status.time, status.state, status.reason)
+        recorder.close(log.metadata.get("result", ""), log.metadata.get("reason", ""))
+    except OutputError:
+        recorder.abandon()
+        raise
+    return scenario
+
+
+def recorded_vehicle(log: Log) -> RecordedVehicle:
+    """The vehicle of a log. Raises InputError for a log of fewer than two ticks."""
+    columns = (
+        log.column("/vehicle", "time_s"),
+        log.vector("/vehicle", "q_nb"),
+        log.vector("/vehicle", "w"),
+        log.vector("/vehicle", "f"),
+    )
+    return RecordedVehicle([_state(*row) for row in zip(*(column.tolist() for column in columns), strict=True)])
+
+
+def _state(time: float, q: list[float], w: list[float], f: list[float]) -> VehicleState:
+    q_NB: Quat = (q[0], q[1], q[2], q[3])
+    w_NB_B: Vec3 = (w[0], w[1], w[2])
+    return VehicleState(time, q_NB, w_NB_B, (f[0], f[1], f[2]))
+
+
+def _recorder(output: Path, scenario: Scenario, log: Log, attachments: dict[str, bytes]) -> McapRecorder:
+    return McapRecorder(
+        output,
+        head_S=scenario.platform.head_S,
+        metadata={
+            **log.metadata,
+            "scenario": scenario.name,
+            "method": scenario.file.cueing.method,
+            "platform": scenario.platform.name,
+            "atlas_cueing_version": version("atlas_cueing"),
+            "ruckig_version": version("ruckig"),
+            "recued_from": log.path.name,
+        },
+        attachments=attachments,
+        chunk_ticks=scenario.file.recording.chunk_ticks,
+        skip_topics=scenario.file.recording.skip,
+    )
+
+
+def _refuse_flown(settings: Sequence[str]) -> None:
+    for text in settings:
+        if text.partition("=")[0].strip().partition(".")[0] in _FLOWN:
+            raise InputError(
+                f"--set: {text}: the flight is the recorded one; allowed: keys of cueing, platform, recording, name"
+            )
+
+
+def _from_here(text: str) -> str:
+    """A platform file is looked for where the command was called, not where the log's files are unpacked."""
+    key, _, value = text.partition("=")
+    if key.strip() != "platform.file":
+        return text
+    return f"platform.file={Path(value.strip().strip(chr(34))).resolve()}"

@@ -1,0 +1,42 @@
+"""A flight that was recorded, as a vehicle."""
+
+from collections.abc import Sequence
+
+from ..errors import InputError
+from ..signals import VehicleState
+
+
+class RecordedVehicle:
+    """Plays states back one after the other, bit by bit as they were (implements signals.Vehicle).
+
+    The step is the time from the first state to the second, which is exactly the step of the vehicle that was recorded when its
+    first time is 0.
+    """
+
+    def __init__(self, states: Sequence[VehicleState]) -> None:
+        """States in order of time, at least two. Raises InputError when there are fewer, or time does not go on."""
+        if len(states) < 2:
+            raise InputError(f"a recorded flight needs at least two states to know its step; this one has {len(states)}")
+        for before, now in zip(states, states[1:], strict=False):
+            if not now.time > before.time:
+                raise InputError(f"a recorded flight must go on in time: {now.time:.9g} s after {before.time:.9g} s")
+        self._states = states
+        self._dt = states[1].time - states[0].time
+        self._now = 0
+
+    @property
+    def dt(self) -> float:
+        """Time between two states, s."""
+        return self._dt
+
+    @property
+    def state(self) -> VehicleState:
+        """The present state."""
+        return self._states[self._now]
+
+    def advance(self) -> bool:
+        """Go one state on; False, and nothing changes, after the last one."""
+        if self._now + 1 == len(self._states):
+            return False
+        self._now += 1
+        return True

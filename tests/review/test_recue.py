@@ -1,0 +1,91 @@
+"""A recorded flight cued again."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from atlas_cueing.errors import InputError, LogError
+from atlas_cueing.recording import read_log
+from atlas_cueing.review import recue, review
+
+from .conftest import SCENARIOS, fly
+from .corrupting import corrupted
+
+
+@pytest.mark.parametrize("scenario", ["", "c172_elevator_doublet"])
+def test_without_a_change_it_repeats_the_log_to_the_last_bit(flight: Path, tmp_path: Path, scenario: str) -> None:
+    """Also where JSBSim's step is no round number and the attitude jumps."""
+    old = fly(tmp_path, "duration_s=2.0", text=(SCENARIOS / f"{scenario}.toml").read_text()) if scenario else flight
+    recue(old, (), tmp_path / "new.mcap")
+    one, other = read_log(old), read_log(tmp_path / "new.mcap")
+    assert one.tables.keys() == other.tables.keys()
+    for topic, table in one.tables.items():
+        assert np.array_equal(table.values, other.tables[topic].values), topic
+    assert one.statuses == other.statuses
+    assert one.attachments == other.attachments
+    assert other.metadata == {**one.metadata, "recued_from": old.name}
+    assert review(tmp_path / "new.mcap").clean
+
+
+def test_another_method_and_platform(flight: Path, tmp_path: Path) -> None:
+    """What comes out is what a run with these settings gives: the vehicle does not know how it is cued."""
+    settings = ("cueing.method=attitude", "platform.preset=atlas-1.5m", "recording.chunk_ticks=100")
+    scenario = recue(flight, settings, tmp_path / "new.mcap")
+    assert (scenario.file.cueing.method, scenario.platform.name) == ("attitude", "atlas-1.5m")
+    flown = read_log(fly(tmp_path, *settings, "platform.rider.head_m=[0,0,0]", name="flown.mcap"))
+    new = read_log(tmp_path / "new.mcap")
+    for topic, table in flown.tables.items():
+        assert np.array_equal(table.values, new.tables[topic].values), topic
+    assert new.metadata["method"] == "attitude"
+    assert not np.array_equal(new.tables["/cue"].values, read_log(flight).tables["/cue"].values)
+
+
+def test_a_platform_file_is_found_where_the_command_is_called(
+    flight: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    text = read_log(flight).attachments["platform.toml"].decode()
+    (tmp_path / "mine.toml").write_text(text.replace("atlas-2.9m", "mine"))
+    assert recue(flight, ["platform.file=mine.toml"], tmp_path / "new.mcap").platform.name == "mine"
+
+
+def test_how_the_flight_ended_is_kept(flight: Path, tmp_path: Path) -> None:
+    failed = corrupted(flight, tmp_path / "failed.mcap", metadata={"result": "vehicle_failed", "reason": "at 6 s"})
+    recue(failed, (), tmp_path / "new.mcap")
+    metadata = read_log(tmp_path / "new.mcap").metadata
+    assert (metadata["result"], metadata["reason"]) == ("vehicle_failed", "at 6 s")
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        (["vehicle.rate_hz=50"], "the flight is the recorded one"),
+        (["duration_s=1"], "the flight is the recorded one"),
+        (["cueing.method=magic"], "method = 'magic'"),
+        (["platform.wheel_limits.speed_rad_s=-1"], "speed_rad_s"),
+        (["platform.file=missing.toml"], "cannot be read"),
+        (["nonsense"], "KEY=VALUE"),
+    ],
+)
+def test_settings_that_do_not_fit(flight: Path, tmp_path: Path, settings: list[str], message: str) -> None:
+    with pytest.raises(InputError, match=message) as caught:
+        recue(flight, settings, tmp_path / "new.mcap")
+    assert "/tmp" not in str(caught.value) or "missing.toml" in str(caught.value)  # noqa: S108
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_log_that_cannot_be_cued(flight: Path, tmp_path: Path) -> None:
+    one = corrupted(flight, tmp_path / "one.mcap", lambda c: c.update({n: v[:1] for n, v in c.items()}))
+    with pytest.raises(InputError, match="at least two states"):
+        recue(one, (), tmp_path / "new.mcap")
+    without = corrupted(flight, tmp_path / "without.mcap", attachments={"scenario.toml": b"broken ="})
+    with pytest.raises(InputError, match=r"the log's scenario\.toml: TOML: not valid"):
+        recue(without, (), tmp_path / "new.mcap")
+    with pytest.raises(LogError):
+        recue(tmp_path / "s.toml" if (tmp_path / "s.toml").exists() else _text(tmp_path), (), tmp_path / "new.mcap")
+
+
+def _text(folder: Path) -> Path:
+    (folder / "text.mcap").write_text("no log")
+    return folder / "text.mcap"

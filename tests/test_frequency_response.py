@@ -1,0 +1,317 @@
+"""The tool that measures gain and phase: its arithmetic, and the pipeline's linear theory as a second derivation."""
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
+from math import isnan, nan, pi
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pytest
+
+from atlas_cueing.cueing import AttitudeParameters, BlendParameters, ClassicalParameters, ForceParameters
+from atlas_cueing.scenario import Scenario, build, load_scenario
+from atlas_cueing.scenario.cueing import METHODS
+from atlas_cueing.signals import STANDARD_GRAVITY as G
+
+ROOT = Path(__file__).parents[1]
+TOOL = ROOT / "tools" / "frequency_response"
+SWEEP = ROOT / "scenarios" / "signal_sweep.toml"
+RATE_HZ = 120.0
+THREE = (0.631, 2.512, 6.31)  # rad/s
+
+
+def loaded() -> ModuleType:
+    loader = SourceFileLoader("frequency_response", str(TOOL))
+    spec = spec_from_loader(loader.name, loader)
+    assert spec
+    module = module_from_spec(spec)
+    sys.modules[loader.name] = module  # dataclasses look their module up
+    before, sys.dont_write_bytecode = sys.dont_write_bytecode, True
+    try:
+        loader.exec_module(module)
+    finally:
+        sys.dont_write_bytecode = before
+    return module
+
+
+tool = loaded()
+
+
+@pytest.fixture
+def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A shorter way to the settled state, for frequencies above 0.5 rad/s."""
+    monkeypatch.setattr(tool, "_RAMP_S", 12.0)
+    monkeypatch.setattr(tool, "_SETTLED_S", 24.0)
+
+
+def scenario(method: str) -> Scenario:
+    return load_scenario(SWEEP, [f"cueing.method={method}"])
+
+
+def measured(method: str, axis: str, frequency: float, follows: bool = False) -> dict[str, Any]:
+    """Responses by answering axis."""
+    size = 0.01 * min(frequency, 1.0) if axis.endswith("rate") else 0.1
+    responses = tool.measure((scenario(method), tool.sine(axis, frequency, size, RATE_HZ, follows)))
+    return {response.answer: response for response in responses}
+
+
+def phasor(response: Any) -> complex:
+    phase = 0.0 if isnan(response.phase_deg) else response.phase_deg
+    return complex(response.gain * np.exp(1j * np.radians(phase)))
+
+
+def low_pass(s: complex, omega: float) -> complex:
+    return omega**2 / (s + omega) ** 2
+
+
+def stage(s: complex, of: Scenario) -> complex:
+    """Stage acceleration over what the head lacks, along x: the filter of `cueing/stage.py`, in continuous time."""
+    p = of.file.cueing.stage_parameters()
+    corner = 2.0 * pi * p.bandwidth
+    return p.force_gain[0] * corner / (s + corner) * s / (s + p.recentre[0]) * s**2 / (s + p.onset[0]) ** 2
+
+
+def turning(s: complex, of: Scenario) -> tuple[complex, complex]:
+    """Pitch rate of the cabin over that of the vehicle, with the force held, and over the force x (rad/s per m/s^2).
+
+    `target` is the pitch whose gravity is the force, per m/s^2. Linear for small angles, in continuous time.
+    """
+    target = 1.0 / G
+    match of.file.cueing.parameters():
+        case AttitudeParameters():
+            return 1.0, 0.0
+        case BlendParameters() as p:  # s x = w + H (s L target - w + (target - x) / T)
+            slow = low_pass(s, 1.0 / p.turn.smoothing)
+            back = s + slow / p.turn.time
+            return s * (1.0 - slow * low_pass(s, p.bandwidth)) / back, s * slow * (s * low_pass(s, p.bandwidth) + 1.0 / p.turn.time) / back * target
+        case ForceParameters() as p:
+            return 0.0, s * low_pass(s, p.bandwidth) * target
+        case ClassicalParameters() as p:
+            washout = s**2 / (s + p.high_pass[1]) ** 2
+            return p.rotation_gain[1] * washout, s * p.tilt_gain[0] * low_pass(s, p.tilt_low_pass) * target
+    raise AssertionError(of.name)
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("frequency", THREE)
+@pytest.mark.parametrize("method", METHODS)
+def test_all_four_relations_are_those_of_the_theory(method: str, frequency: float) -> None:
+    """With the force held rates and forces are independent: the four are one column each of the linear pipeline."""
+    s, of = 1j * frequency, scenario(method)
+    from_rate, from_force = turning(s, of)
+    onset = stage(s, of)
+    tilted = from_force / s * G  # share of the force that gravity stands for
+    wanted = {
+        ("pitch_rate", "pitch_rate"): (from_rate, 1.0),
+        ("pitch_rate", "force_x"): (from_rate / s * G * (1.0 - onset), G / frequency),
+        ("force_x", "pitch_rate"): (from_force, frequency / G),
+        ("force_x", "force_x"): (tilted + onset * (1.0 - tilted), 1.0),
+    }
+    found = {axis: measured(method, axis, frequency) for axis in ("pitch_rate", "force_x")}
+    for (driven, answer), (theory, scale) in wanted.items():
+        response = found[driven][answer]
+        assert abs(phasor(response) - theory) / scale < 0.01 + 0.4 * frequency / RATE_HZ  # of a tick's delay
+        assert response.limited_share == 0.0
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_force_that_follows_is_the_force_of_the_attitude() -> None:
+    """Superposition, as the vehicle's description says: rotation with its force = rotation alone + the force g / s."""
+    w = 2.512
+    alone, force = measured("blend", "pitch_rate", w), measured("blend", "force_x", w)
+    for answer, response in measured("blend", "pitch_rate", w, follows=True).items():
+        both = phasor(alone[answer]) + G / (1j * w) * phasor(force[answer])
+        assert abs(phasor(response) - both) < 0.01 * max(1.0, abs(both))
+        own = complex(1.0) if answer == "pitch_rate" else G / (1j * w)
+        pilot = response.pilot_gain * np.exp(1j * np.radians(response.pilot_phase_deg))
+        assert abs(pilot - own) < 2e-3 * abs(own)
+
+
+def synthetic(gain: float, phase: float, amplitude: float, noise: float = 0.0) -> tuple[float, float, float]:
+    """What is fitted to a known answer that has an offset and drifts."""
+    time = np.arange(7000) / 100.0 + 40.0
+    answer = gain * amplitude * np.sin(0.9 * time + np.radians(phase)) + 5.0 - 0.3 * time
+    answer += noise * np.random.default_rng(1).standard_normal(time.size)
+    fitted: tuple[float, float, float] = tool.fit(time, answer, 0.9, amplitude)
+    return fitted
+
+
+@pytest.mark.parametrize(("gain", "phase"), [(1.0, 0.0), (0.3, -120.0), (2.5, 75.0), (1e-6, 170.0)])
+@pytest.mark.parametrize("amplitude", [0.02, -0.5])
+def test_fit(gain: float, phase: float, amplitude: float) -> None:
+    assert synthetic(gain, phase, amplitude) == pytest.approx((gain, phase, 0.0), abs=1e-7, rel=1e-7)
+
+
+def test_what_the_fit_leaves_is_told() -> None:
+    gain, phase, residual = synthetic(1.0, 20.0, 0.5, noise=0.01)
+    assert (gain, phase) == pytest.approx((1.0, 20.0), rel=5e-3)
+    assert residual == pytest.approx(0.01 * 2**0.5 / 0.5, rel=0.05)
+
+
+def test_no_answer_has_no_phase() -> None:
+    assert isnan(synthetic(0.0, 0.0, 0.5)[1])
+    assert isnan(synthetic(0.001, 0.0, 0.5, noise=0.01)[1])
+
+
+class Late:
+    """A pipeline that is one tick late."""
+
+    def __init__(self, scenario: Scenario, dt: float) -> None:
+        self._pipeline, self._state = build(scenario, dt), None
+
+    def step(self, state: Any) -> Any:
+        before, self._state = self._state or state, state
+        tick = self._pipeline.step(before)
+        return replace(tick, vehicle=state)
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize(("pipeline", "ticks"), [(build, 0.0), (Late, 1.0)])
+def test_a_delay_is_measured_in_ticks(monkeypatch: pytest.MonkeyPatch, pipeline: Any, ticks: float) -> None:
+    """Motion and state of one tick belong together: no delay. A tick too late would be seen."""
+    monkeypatch.setattr(tool, "build", pipeline)
+    points = [measured("attitude", "yaw_rate", w)["yaw_rate"] for w in (2.512, 15.85)]
+    assert tool.delay_ticks(points, RATE_HZ) == pytest.approx(ticks, abs=0.01)
+
+
+def test_attitude_is_one_to_one_over_the_whole_band(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """As a user does it: twelve frequencies as JSON, and a picture."""
+    picture = tmp_path / "response.png"
+    options = [
+        "--method",
+        "attitude",
+        "--axis",
+        "pitch_rate",
+        "--rate-hz",
+        "40",
+        "--jobs",
+        "1",
+        "--json",
+        "--plot",
+        str(picture),
+    ]
+    assert tool.main(options) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert (told["platform"], told["rate_hz"], told["force"]) == ("atlas-2.9m", 40.0, "follows the attitude")
+    points = [tool.Response(**point) for point in told["responses"]]
+    turns = [p for p in points if p.answer == "pitch_rate"]
+    assert [p.frequency_rad_s for p in turns] == list(tool.FREQUENCIES)
+    assert all(abs(p.gain - 1.0) < 0.01 and p.limited_share == 0.0 for p in turns)
+    assert abs(tool.delay_ticks(turns, 40.0)) < 0.02
+    for p in (p for p in points if p.answer == "force_x"):
+        assert p.gain == pytest.approx(G / p.frequency_rad_s, rel=0.02)
+        assert (p.pilot_phase_deg, p.phase_deg) == (pytest.approx(-90.0, abs=0.1), pytest.approx(-90.0, abs=0.5))
+    assert shown_colours(picture) > 2
+
+
+def shown_colours(picture: Path) -> int:
+    """Number of colours, greys left out, that fill more than a few pixels."""
+    from matplotlib.image import imread
+
+    pixels = np.round(10.0 * imread(picture)[..., :3]).astype(int).reshape(-1, 3)
+    coloured = pixels[np.ptp(pixels, axis=1) > 1] @ [1, 11, 121]
+    return int(np.sum(np.bincount(coloured, minlength=1) > 50))
+
+
+def response(**changes: Any) -> Any:
+    plain = tool.Response("attitude", "rotation to rotation", "yaw_rate", "yaw_rate", 1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
+    return replace(plain, **changes)
+
+
+def test_table() -> None:
+    lines = tool.table([response(phase_deg=-0.5), response(frequency_rad_s=10.0, gain=0.98, limited_share=0.1)], 120.0)
+    assert lines.splitlines() == [
+        "attitude: rotation to rotation, gain [-] and phase [deg]; pilot: 1",
+        " rad/s      yaw_rate > yaw_rate",
+        "     1         1.0000    -0.50 ",
+        "    10         0.9800     0.00*",
+        "  largest residual 0.0e+00",
+        f"  yaw_rate: gain within 2.0e-02 of 1, delay {np.radians(0.5) / 101.0 * 120.0:+.4f} ticks",
+    ]
+
+
+def test_table_of_force_shows_the_pilots_beside() -> None:
+    sway = {
+        "relation": "rotation to force",
+        "driven": "roll_rate",
+        "answer": "force_y",
+        "pilot_gain": 9.8,
+        "pilot_phase_deg": 90.0,
+    }
+    lines = tool.table([response(**sway, gain=0.0, phase_deg=nan), response(gain=0.5)], 120.0).splitlines()
+    assert lines[-1] == "  largest residual 0.0e+00"
+    assert "  yaw_rate: gain within 5.0e-01 of 1" in lines
+    assert [line for line in lines if "roll_rate" in line] == [" rad/s      roll_rate > force_y               pilot"]
+    assert [line for line in lines if "9.8" in line] == ["     1         0.0000        -      9.8000    90.00"]
+
+
+def test_pictures_of_nothing_but_yaw(tmp_path: Path) -> None:
+    """Three of the four relations are empty, and a phase passes half a turn."""
+    points = [response(frequency_rad_s=w, phase_deg=p) for w, p in ((1.0, -170.0), (2.0, 170.0), (3.0, nan))]
+    tool.draw(points, "yaw", tmp_path / "yaw.png")
+    assert shown_colours(tmp_path / "yaw.png") > 0
+
+
+def test_a_platform_at_its_limits_is_told(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(tool, "FREQUENCIES", (10.0,))
+    monkeypatch.setattr(tool, "_SETTLED_S", 21.0)
+    slow = [
+        "--set",
+        "platform.wheel_limits.acceleration_rad_s2=0.3",
+        "--method",
+        "attitude",
+        "--axis",
+        "yaw_rate",
+        "--jobs",
+        "1",
+    ]
+    assert tool.main(slow) == 1
+    out, err = capsys.readouterr()
+    assert "*" in out
+    assert err.startswith("limited: attitude, yaw_rate > yaw_rate at 10 rad/s: the platform fell behind on ")
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--rate-hz", "5", "--jobs", "1"], "error: rate 5 Hz, allowed: 10 <= rate_hz <= 10000"),
+        (["--rotation-deg", "nan"], "error: --rotation-deg nan, allowed: 0 < value <= 45"),
+        (["--force-m-s2", "-1"], "error: --force-m-s2 -1, allowed: 0 < value <= 50"),
+        (["--jobs", "0"], "error: --jobs 0, allowed: 0 < value <= 1000"),
+        (["--plot", "nowhere/x.png"], "error: --plot nowhere/x.png, allowed: a file .png, .svg, .pdf in an existing folder"),
+        (["--plot", "x.bmp"], "error: --plot x.bmp, allowed: a file .png, .svg, .pdf in an existing folder"),
+        (["missing.toml"], "error: missing.toml: file: cannot be read: No such file or directory"),
+        (
+            ["--method", "attitude", "--set", "cueing.methd=1"],
+            "error: --set: cueing.methd = 1: unknown key; did you mean 'method'?",
+        ),
+    ],
+)
+def test_bad_input(capsys: pytest.CaptureFixture[str], options: list[str], message: str) -> None:
+    assert tool.main(options) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith(message)
+
+
+def test_a_plot_needs_its_extra(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(tool, "find_spec", lambda _: None)
+    assert tool.main(["--plot", "x.png"]) == 2
+    assert "--plot needs matplotlib" in capsys.readouterr().err
+
+
+def test_the_command_gives_the_same_with_two_processes(capsys: pytest.CaptureFixture[str]) -> None:
+    options = ["--method", "attitude", "--axis", "roll_rate", "--rate-hz", "21", "--hold-force", "--json", "--jobs"]
+    done = subprocess.run([sys.executable, TOOL, *options, "2"], capture_output=True, text=True, timeout=300, check=True)
+    assert done.stderr == ""
+    assert tool.main([*options, "1"]) == 0
+    assert capsys.readouterr().out == done.stdout
+    told = json.loads(done.stdout)
+    assert told["force"] == "held"
+    assert [p["pilot_gain"] for p in told["responses"] if p["answer"] == "force_y"] == [0.0] * len(tool.FREQUENCIES)
