@@ -13,8 +13,8 @@ from ..errors import OutputError, VehicleError
 from ..pipeline import Pipeline
 from ..recording import McapRecorder
 from ..scenario import Scenario, build
-from ..signals import Sink, Vehicle
-from ..vehicles import JsbsimVehicle
+from ..signals import Sink, Vehicle, VehicleState
+from ..vehicles import JsbsimVehicle, SignalFlight, SignalVehicle
 from .evaluate import Evaluation, evaluate
 from .interrupt import Interrupt
 
@@ -23,7 +23,7 @@ Progress: TypeAlias = Callable[[float], None]  # called now and then with the fl
 # Attitude and body rates of one step agree to dt^2/2 times the angular acceleration: 0.04 deg at 120 Hz and 20 rad/s^2. From
 # here on (assumed) a difference is noted in /status as a jump; at 10 Hz a hard manoeuvre may pass for one.
 JUMP = radians(0.5)
-PROGRESS_TICKS = 64  # ticks from one call of Progress to the next
+BLOCK = 32  # ticks taken through the pipeline stage by stage; also from one call of Progress to the next
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,28 +103,55 @@ def run_scenario(scenario: Scenario, log: Path, *, progress: Progress | None = N
 
 def fly(vehicle: Vehicle, pipeline: Pipeline, sink: Sink, flown: Flown, progress: Progress | None, stop: Interrupt) -> None:
     """Step until the vehicle ends or `stop` is requested; `flown` is kept up to date. Raises what the vehicle raises."""
-    before = vehicle.state
-    sink.append(pipeline.step(before))
-    flown.ticks, flown.time = 1, before.time
-    jumping = False
-    while not stop.requested and vehicle.advance():
-        now = vehicle.state
-        sink.append(pipeline.step(now))
-        flown.ticks, flown.time = flown.ticks + 1, now.time
-        jump = attitude_jump(before, now)
-        if (jump >= JUMP) != jumping:
-            jumping = not jumping
-            reason = f"attitude jumped by {degrees(jump):.3g} deg that the body rates do not explain" if jumping else ""
-            sink.status(now.time, "attitude_jump" if jumping else "running", reason)
-        if progress and flown.ticks % PROGRESS_TICKS == 0:
-            progress(now.time)
-        before = now
+    kept = _Keeper(pipeline, sink, flown, progress)
+    states, more = [vehicle.state], True
+    while more:
+        try:
+            more = _gather(vehicle, states, stop)
+        finally:  # what was flown is kept, also when the vehicle fails
+            kept.keep(states)
+        states = []
+
+
+def _gather(vehicle: Vehicle, states: list[VehicleState], stop: Interrupt) -> bool:
+    """Fill up a block of states; False at the end of the flight."""
+    while len(states) < BLOCK:
+        if stop.requested or not vehicle.advance():
+            return False
+        states.append(vehicle.state)
+    return True
+
+
+class _Keeper:
+    """Takes blocks of states through the pipeline into the sink, and notes the jumps among them."""
+
+    def __init__(self, pipeline: Pipeline, sink: Sink, flown: Flown, progress: Progress | None) -> None:
+        self._pipeline, self._sink, self._flown, self._progress = pipeline, sink, flown, progress
+        self._before: VehicleState | None = None
+        self._jumping = False
+
+    def keep(self, states: list[VehicleState]) -> None:
+        for tick in self._pipeline.block(states):
+            self._sink.append(tick)
+            self._note_jump(tick.vehicle)
+            self._flown.ticks, self._flown.time = self._flown.ticks + 1, tick.vehicle.time
+        if self._progress:
+            self._progress(self._flown.time)
+
+    def _note_jump(self, now: VehicleState) -> None:
+        jump = attitude_jump(self._before, now) if self._before else 0.0
+        self._before = now
+        if (jump >= JUMP) != self._jumping:
+            self._jumping = not self._jumping
+            reason = f"attitude jumped by {degrees(jump):.3g} deg that the body rates do not explain" if self._jumping else ""
+            self._sink.status(now.time, "attitude_jump" if self._jumping else "running", reason)
 
 
 def _load(scenario: Scenario, flown: Flown) -> Vehicle | None:
     """The vehicle at its first state; none when it fails there, which is a result of the run."""
+    flight = scenario.flight
     try:
-        return JsbsimVehicle(scenario.flight)
+        return SignalVehicle(flight) if isinstance(flight, SignalFlight) else JsbsimVehicle(flight)
     except VehicleError as error:
         flown.result, flown.reason = "vehicle_failed", str(error)
         return None

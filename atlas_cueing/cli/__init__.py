@@ -13,8 +13,18 @@ from typing import Annotated
 import typer
 
 from ..errors import AtlasError, InputError
+from .batch import EPILOG as BATCH_EPILOG
+from .batch import batch
+from .compare import EPILOG as COMPARE_EPILOG
+from .compare import compare
 from .platform import EPILOG as PLATFORM_EPILOG
 from .platform import platform
+from .recover import EPILOG as RECOVER_EPILOG
+from .recover import recover
+from .recue import EPILOG as RECUE_EPILOG
+from .recue import recue
+from .review import EPILOG as REVIEW_EPILOG
+from .review import review
 from .run import EPILOG as RUN_EPILOG
 from .run import run
 
@@ -30,6 +40,11 @@ app = typer.Typer(
 logging.getLogger("atlas_cueing").addHandler(logging.NullHandler())
 
 app.command(epilog=RUN_EPILOG)(run)
+app.command(epilog=BATCH_EPILOG)(batch)
+app.command(epilog=REVIEW_EPILOG)(review)
+app.command(epilog=COMPARE_EPILOG)(compare)
+app.command(epilog=RECUE_EPILOG)(recue)
+app.command(epilog=RECOVER_EPILOG)(recover)
 app.command(epilog=PLATFORM_EPILOG)(platform)
 
 

@@ -30,11 +30,15 @@ def load_scenario(path: Path, overrides: Sequence[str] = ()) -> Scenario:
     A value is TOML, or else a bare string. Raises ScenarioError with every mistake of both files and of the overrides.
     """
     settings = parse_overrides(overrides)
+    return resolve(read_toml(path), settings, path)
+
+
+def resolve(data: dict[str, Any], settings: Overrides, path: Path) -> Scenario:
+    """As `load_scenario` for the table that `path` holds, which is changed, and overrides read already."""
     deep = {
         key[1:]: value for key, value in settings.items() if key[0] == "platform" and len(key) > 1 and key[1] not in _CHOICE
     }
     flat = {key: value for key, value in settings.items() if key[0] != "platform" or key[1:] not in deep}
-    data = read_toml(path)
     if ("cueing", "method") in flat:
         _leave_method(data, flat["cueing", "method"])
     mistakes = apply_overrides(data, flat)

@@ -12,7 +12,7 @@ from ..recording.recorder import MAX_CHUNK_TICKS
 from .cueing import BlendTable, CueingTable
 from .mistakes import nearest
 from .platform import NAME, Platform, presets
-from .table import Table, number, refuse, text, whole
+from .table import Table, number, object_to, refuse, text, whole
 from .vehicle import Flight, VehicleTable
 
 # The other topics are what the run is evaluated from.
@@ -56,6 +56,10 @@ class RecordingTable(Table):
     skip: Annotated[tuple[Annotated[str, BeforeValidator(_dispensable)], ...], BeforeValidator(_as_tuple)] = ()
 
 
+def _many_runs(_: Any) -> None:
+    raise object_to("a sweep stands for many runs; fly them with: atlas-cueing batch FILE -o FOLDER")
+
+
 class ScenarioFile(Table):
     """A scenario file; validate it with `context={"folder": ...}`, where user's scripts are looked for."""
 
@@ -66,6 +70,7 @@ class ScenarioFile(Table):
     platform: PlatformChoice
     cueing: CueingTable = BlendTable()
     recording: RecordingTable = RecordingTable()
+    sweep: Annotated[None, BeforeValidator(_many_runs)] = None  # `load_variants` takes it out
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,114 @@
+"""Runs on many machines, by dask.distributed (extra `cluster`).
+
+On machines that trust each other and share the folder of results, each with the same versions installed:
+
+    DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES=1 dask scheduler --host HOST --port 8786
+    dask worker tcp://HOST:8786 --nworkers 8 --nthreads 1                       # on every machine
+    atlas-cueing batch scenarios -o /shared/results --cluster tcp://HOST:8786
+
+Whoever reaches the scheduler can run any program on the workers: keep it on 127.0.0.1 or on a private network.
+"""
+
+import threading
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from functools import partial
+from itertools import islice
+from time import sleep
+from typing import Any
+
+from ..errors import InputError
+from .order import Order
+from .record import Record
+from .workers import ATTEMPTS, Stop, Worker, lost
+
+LOCAL = "local"  # in place of an address: a scheduler and workers on 127.0.0.1, for this batch only
+_UNDER_WAY = 2000  # runs that the scheduler knows at a time; it needs some 10 kB for each
+_PATIENCE = 0.1  # s from one look at the scheduler to the next
+_TIMEOUT = 10.0  # s to reach the scheduler
+_own = threading.local()  # a worker process for each thread of a dask worker
+
+
+@contextmanager
+def on_cluster(address: str, jobs: int) -> Iterator[Callable[[Iterable[Order], Stop], Iterator[Record]]]:
+    """What flies orders on the cluster of a scheduler (`tcp://HOST:PORT`), or on `jobs` LOCAL workers; records as they come.
+
+    The runs of a lost worker are begun again elsewhere; one that loses ATTEMPTS workers is given up as `worker_lost`. Once
+    `stop` is true nothing more is begun. Raises InputError when dask is not installed or the scheduler cannot be reached.
+    """
+    with _client(address, jobs) as client:
+        yield partial(_fly, client)
+
+
+def _fly(client: Any, todo: Iterable[Order], stop: Stop) -> Iterator[Record]:
+    from distributed import as_completed
+
+    orders = iter(todo)
+
+    known: dict[str, Order] = {}
+
+    def submit(count: int) -> list[Any]:
+        batch = list(islice(orders, count))
+        known.update({order.id: order for order in batch})
+        # The key makes a run that is under way for a driver that was killed be waited for instead of flown twice.
+        return [client.submit(fly_order, order, key=order.id, retries=0) for order in batch]
+
+    waiting = as_completed(submit(_UNDER_WAY))
+    while waiting.count() and not stop():
+        if not waiting.has_ready():
+            sleep(_PATIENCE)
+            continue
+        for future in waiting.next_batch(block=True):
+            record = _record(future, known.pop(future.key))
+            waiting.update(submit(1))
+            yield record
+
+
+def _record(future: Any, order: Order) -> Record:
+    if future.status == "finished":
+        record: Record = future.result()
+        return record
+    if future.status == "cancelled":
+        return Record(order.id, "worker_lost", "the cluster gave it up")
+    error = future.exception()
+    if type(error).__name__ == "KilledWorker":
+        return lost(order)
+    return Record(order.id, "worker_differs", f"the cluster's worker cannot fly it: {type(error).__name__}: {error}")
+
+
+def fly_order(order: Order) -> Record:
+    """On a dask worker: fly the order in the worker process of this thread."""
+    for _ in range(ATTEMPTS):
+        worker: Worker | None = getattr(_own, "worker", None)
+        if worker is None:
+            worker = _own.worker = Worker()
+        worker.submit(order)
+        record = worker.receive()
+        if record:
+            return record
+        worker.close()
+        _own.worker = None
+    return lost(order)
+
+
+@contextmanager
+def _client(address: str, jobs: int) -> Iterator[Any]:
+    try:
+        import dask
+        from distributed import Client, LocalCluster
+    except ImportError as error:
+        raise InputError("--cluster needs dask.distributed: pip install 'atlas_cueing[cluster]'") from error
+    if address == LOCAL:
+        with (
+            dask.config.set({"distributed.scheduler.allowed-failures": ATTEMPTS - 1}),
+            LocalCluster(n_workers=jobs, threads_per_worker=1, host="127.0.0.1", dashboard_address=None) as local,
+            Client(local) as client,
+        ):
+            yield client
+        return
+    try:
+        client = Client(address, timeout=_TIMEOUT)
+    except (OSError, ValueError) as error:
+        raise InputError(f"--cluster {address}: no scheduler reached: {error}") from error
+    with client:
+        yield client

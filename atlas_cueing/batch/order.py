@@ -1,0 +1,44 @@
+"""One run as a worker needs it, here or on another machine: nothing in it points to a file but the folder of results."""
+
+import json
+from dataclasses import asdict, dataclass
+from typing import Self
+
+from .plan import PlannedRun
+
+DEFAULT_TIME_LIMIT = 1800.0  # s of wall time for one run; the longest of the bundled ones takes a tenth of it
+DEFAULT_MEMORY_LIMIT = 4.0  # GB of address space for one run; an ordinary one needs half of one
+LEAST_MEMORY_LIMIT = 0.5  # GB; the interpreter with its libraries alone has 0.3
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """Of each run: `time` in s of wall time, `memory` in GB (10^9 bytes) of address space."""
+
+    time: float = DEFAULT_TIME_LIMIT
+    memory: float = DEFAULT_MEMORY_LIMIT
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """A run to fly: its id, the folder of results, the files of the scenario by name, and its limits."""
+
+    id: str
+    folder: str
+    files: dict[str, str]  # bytes as Latin-1, which loses none
+    limits: Limits
+
+    @classmethod
+    def of(cls, run: PlannedRun, folder: str, limits: Limits) -> Self:
+        """The order for a planned run."""
+        return cls(run.id, folder, {name: data.decode("latin-1") for name, data in run.scenario.attachments().items()}, limits)
+
+    def to_line(self) -> bytes:
+        """One line of JSON."""
+        return json.dumps(asdict(self)).encode() + b"\n"
+
+    @classmethod
+    def from_line(cls, line: bytes) -> Self:
+        """The order again."""
+        table = json.loads(line)
+        return cls(table["id"], table["folder"], table["files"], Limits(**table["limits"]))

@@ -1,0 +1,79 @@
+"""What came of one run of a batch, and the file that keeps it."""
+
+import json
+import os
+from dataclasses import asdict, dataclass, field
+from math import isfinite
+from pathlib import Path
+from typing import Any, Self
+
+# The run itself ended so: the same again would end the same. Anything else (a full disk, a lost worker) is flown again.
+FINAL = ("ok", "vehicle_failed", "failed", "crashed", "timed_out", "out_of_memory")
+KILLED = ("crashed", "timed_out", "out_of_memory")  # a stronger machine or a longer limit may do better: `--retry`
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """The `<run id>.json` beside a log, angles in rad and everything else in SI, units in the names of the figures.
+
+    result: ok, vehicle_failed (did not load, or went wild), failed (an error nobody expected), crashed, timed_out,
+        out_of_memory; never kept: recording_failed, worker_lost, worker_differs.
+    log: file name beside the record; a `.part` when the run was killed, empty when there is none.
+    duration, wall: of the flight and of flying it, s.
+    """
+
+    id: str
+    result: str
+    reason: str = ""
+    log: str = ""
+    ticks: int = 0
+    duration: float = 0.0
+    wall: float = 0.0
+    violations: tuple[str, ...] = ()
+    metrics: dict[str, float] = field(default_factory=dict)
+    limit_use: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def clean(self) -> bool:
+        """Nothing failed and every limit was kept."""
+        return self.result == "ok" and not self.violations
+
+    @property
+    def final(self) -> bool:
+        """Flying it again would change nothing."""
+        return self.result in FINAL
+
+    def to_json(self) -> dict[str, Any]:
+        """By name, unit in the name; a figure that is not finite is None, as JSON has no other word for it."""
+        table = asdict(self)
+        table["duration_s"], table["wall_s"] = table.pop("duration"), table.pop("wall")
+        for name in ("metrics", "limit_use"):
+            table[name] = {key: value if isfinite(value) else None for key, value in table[name].items()}
+        return table
+
+    @classmethod
+    def from_json(cls, table: dict[str, Any]) -> Self:
+        """The record again. Raises KeyError, TypeError, ValueError or AttributeError for anything else."""
+        given = dict(table)
+        duration, wall = float(given.pop("duration_s")), float(given.pop("wall_s"))
+        for name in ("metrics", "limit_use"):
+            given[name] = {key: float("nan") if value is None else float(value) for key, value in given[name].items()}
+        given["violations"] = tuple(given["violations"])
+        return cls(**given, duration=duration, wall=wall)
+
+
+def keep(record: Record, folder: Path) -> None:
+    """Write the record beside the logs, complete or not at all."""
+    part = folder / f"{record.id}.json.part"
+    part.write_text(json.dumps(record.to_json(), indent=1, allow_nan=False))
+    os.replace(part, folder / f"{record.id}.json")
+
+
+def kept(name: str, folder: Path) -> Record | None:
+    """The record of a run that needs no flying again; None when it is missing or damaged, or its log is gone."""
+    try:
+        record = Record.from_json(json.loads((folder / f"{name}.json").read_bytes()))
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return None
+    whole = record.id == name and record.final and (not record.log or (folder / record.log).is_file())
+    return record if whole else None

@@ -1,0 +1,38 @@
+"""What makes two runs the same: everything that their logs depend on."""
+
+from functools import cache
+from hashlib import sha256
+from importlib.metadata import version
+
+from ..scenario import Scenario
+
+PACKAGES = ("atlas_cueing", "jsbsim", "ruckig")  # whose versions a log depends on
+
+_DIGITS = 12  # of the hash: 2^48, so that among a million runs two are mixed up with probability 0.002
+_LONGEST_NAME = 60  # characters of the readable part; file names end at 255 bytes
+
+
+def run_id(scenario: Scenario) -> str:
+    """Name and hash of a run, fit for a file name: a function of the resolved scenario, platform, script and versions."""
+    table = scenario.file.vehicle
+    flown = (table.script or table.aircraft or table.source).rsplit("/", 1)[-1].removesuffix(".xml")
+    readable = f"{scenario.name[:_LONGEST_NAME]}-{_plain(flown)[:_LONGEST_NAME]}-{scenario.file.cueing.method}"
+    return f"{readable}-{digest(scenario.attachments())[:_DIGITS]}"
+
+
+def digest(files: dict[str, bytes]) -> str:
+    """Hash (hex) of files by name and of the versions here."""
+    total = sha256()
+    for name, content in sorted((files | {f"version/{name}": _version(name) for name in PACKAGES}).items()):
+        total.update(f"{name}\0{len(content)}\0".encode())
+        total.update(content)
+    return total.hexdigest()
+
+
+@cache
+def _version(package: str) -> bytes:
+    return version(package).encode()
+
+
+def _plain(name: str) -> str:
+    return "".join(c if c.isascii() and (c.isalnum() or c in "._-") else "_" for c in name)

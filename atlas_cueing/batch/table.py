@@ -1,0 +1,93 @@
+"""Every run of a batch in a row: what it was, what came of it, and every figure."""
+
+import csv
+import os
+from collections.abc import Mapping, Sequence
+from io import StringIO
+from math import inf, isnan
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..evaluation import Flight, metrics
+from .batch import Outcome
+
+Array = NDArray[np.float64]
+
+Row: TypeAlias = Mapping[str, Any]  # column to value; a column that a run does not have is missing
+
+NOT_FLOWN = "not_flown"
+_OF_A_RUN = ("ticks", "duration_s", "wall_s", "violations")
+
+
+class _Nothing:
+    """The log of no flight at all."""
+
+    def column(self, topic: str, field: str) -> Array:  # noqa: ARG002
+        return np.zeros(0)
+
+    def vector(self, topic: str, name: str) -> Array:  # noqa: ARG002
+        return np.zeros((0, 4 if name.startswith("q_") else 3))
+
+
+def metric_names() -> tuple[str, ...]:
+    """What every run that flew has, whatever it flew."""
+    return tuple(dict.fromkeys((*metrics(Flight.of(_Nothing())), *_OF_A_RUN)))
+
+
+def rows(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
+    """A row for each run: id, file, scenario, vehicle, method, platform, what its sweep set, result, and all figures."""
+    return [_row(outcome) for outcome in outcomes]
+
+
+def _row(outcome: Outcome) -> dict[str, Any]:
+    run, record = outcome.run, outcome.record
+    file = run.scenario.file
+    what = {
+        "run": run.id,
+        "source": run.source.name,
+        "scenario": run.scenario.name,
+        "vehicle": file.vehicle.script or file.vehicle.aircraft or file.vehicle.source,
+        "method": file.cueing.method,
+        "platform": run.scenario.platform.name,
+        **run.settings,
+    }
+    if record is None:
+        return {**what, "result": NOT_FLOWN}
+    came = {"result": record.result, "reason": record.reason, "log": record.log, "wall_s": record.wall}
+    figures = {**record.metrics, "ticks": record.ticks, "duration_s": record.duration}
+    use = {f"limit_use_{name}": value for name, value in record.limit_use.items()}
+    return {**what, **came, "violations": len(record.violations), **figures, **use}
+
+
+def ordered(table: Sequence[Row], metric: str) -> list[Row]:
+    """Rows by a metric, the smallest first; then those that failed, whose figures are of a part of the flight, likewise."""
+    return sorted(table, key=lambda row: (row["result"] != "ok", _rank(row.get(metric))))
+
+
+def _rank(value: Any) -> float:
+    """The number itself; infinity for anything else, so that it comes last."""
+    return value if isinstance(value, int | float) and not isnan(value) else inf
+
+
+def columns(table: Sequence[Row]) -> list[str]:
+    """All columns, in the order in which they first appear."""
+    return list(dict.fromkeys(name for row in table for name in row))
+
+
+def write_csv(table: Sequence[Row], path: Path) -> None:
+    """The table as CSV, numbers in full; a list is written as Python would. The file is replaced as a whole."""
+    text = StringIO(newline="")
+    writer = csv.DictWriter(text, columns(table), restval="", lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(table)
+    replace_file(path, text.getvalue())
+
+
+def replace_file(path: Path, text: str) -> None:
+    """Write a text file, complete or not at all."""
+    part = path.with_name(f"{path.name}.part")
+    part.write_text(text, encoding="utf-8")
+    os.replace(part, path)

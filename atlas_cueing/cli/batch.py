@@ -1,0 +1,216 @@
+"""`atlas-cueing batch`: thousands of runs, on one machine or many."""
+
+import os
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ..errors import InputError, LogError
+from .batch_progress import batch_progress, spoken
+
+if TYPE_CHECKING:
+    from ..batch import Fly, Outcome, PlannedRun
+
+EPILOG = """
+Examples:
+
+  atlas-cueing batch scenarios -o results
+
+  atlas-cueing batch scenarios/jsbsim_collection.toml -o collection --jobs 2 --sort force_rms_m_s2
+
+  atlas-cueing batch sweep.toml -o /shared/sweep --cluster tcp://127.0.0.1:8786
+
+The same command again flies only what is missing. A file with a [sweep] table stands for many runs:
+
+  [sweep]
+
+  cueing.method = ["blend", "force"]
+
+  vehicle.script = "c172*"
+
+  draws = 10
+
+  cueing.align_rate_deg_s = { low = 0.5, high = 10.0 }
+"""
+
+SHOWN_METRICS = ("direction_rms_rad", "force_rms_m_s2", "rate_rms_rad_s", "wheels_limited_share", "stage_limited_share")
+_SHOWN_FINDINGS = 20  # lines on stderr; the table has all
+
+
+def batch(
+    paths: Annotated[list[Path], typer.Argument(help="Scenario files, sweeps, and folders of them.", metavar="PATH...")],
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="FOLDER", help="Folder of logs, records and table.")],
+    jobs: Annotated[int | None, typer.Option(min=1, max=1024, help="Runs at a time; by default one for each core.")] = None,
+    cluster: Annotated[
+        str | None, typer.Option(metavar="tcp://HOST:PORT", help="Fly on a dask cluster; 'local' starts one here.")
+    ] = None,
+    settings: Annotated[
+        list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Set any key in all scenarios; repeatable.")
+    ] = None,
+    sort: Annotated[str, typer.Option(metavar="METRIC", help="What the table is sorted by.")] = SHOWN_METRICS[0],
+    top: Annotated[int, typer.Option(min=0, help="Rows of the table that are printed.")] = 20,
+    time_limit: Annotated[float, typer.Option("--time-limit", min=0.1, help="Wall time for one run, s.")] = 1800.0,
+    memory_limit: Annotated[float, typer.Option("--memory-limit", min=0.5, help="Address space for one run, GB.")] = 4.0,
+    retry: Annotated[bool, typer.Option("--retry", help="Fly again what crashed or went over a limit.")] = False,
+    pages: Annotated[
+        bool, typer.Option("--pages", help="Write the review of each run for a browser; MBs and seconds each.")
+    ] = False,
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Check everything, show the plan, fly nothing.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
+) -> None:
+    """Fly many scenarios, each alone in its process, and put all figures into one table.
+
+    FOLDER gets RUN.mcap and RUN.json for each run, summary.csv and index.html. Exit status 0: all flown, every limit kept. 1: a
+    run has a finding, or the batch was stopped. 2: bad input, nothing was written.
+    """
+    from ..batch import Interrupt, Limits, check_folder, fly_batch, missing, plan
+
+    _check_metric(sort)
+    if pages:
+        _check_plotly()
+    runs = plan(paths, settings or ())
+    check_folder(output)
+    todo = missing(runs, output, retry=retry)
+    typer.echo(_plan_text(runs, todo), err=True)
+    if dry_run:
+        return
+    with _flyer(cluster, jobs or len(os.sched_getaffinity(0))) as fly, Interrupt() as stop, batch_progress(todo) as tell:
+        limits = Limits(time_limit, memory_limit)
+        outcomes = fly_batch(runs, output, fly, limits, retry=retry, tell=tell, stop=lambda: stop.requested)
+    if pages and not stop.requested:
+        _write_pages(outcomes, output)
+    table = _write(outcomes, output, sort)
+    typer.echo(_json(table, output) if as_json else _text(table, _settings(outcomes), sort, top, output))
+    _end(outcomes, stopped=stop.requested)
+
+
+@contextmanager
+def _flyer(address: str | None, jobs: int) -> "Iterator[Fly]":
+    from ..batch import fly_here, on_cluster
+
+    if address is None:
+        yield lambda orders, stop: fly_here(orders, jobs, stop)
+    else:
+        with on_cluster(address, jobs) as fly:
+            yield fly
+
+
+def _plan_text(runs: "Sequence[PlannedRun]", todo: "Sequence[PlannedRun]") -> str:
+    known = sum(run.duration or 0.0 for run in todo)
+    unknown = sum(run.duration is None for run in todo)
+    more = f", and {unknown} of unknown length" if unknown else ""
+    return f"{len(runs)} runs, {len(runs) - len(todo)} of them done already; to fly: {spoken(known)} of flight at most{more}"
+
+
+def _write(outcomes: "Sequence[Outcome]", folder: Path, sort: str) -> list[Mapping[str, Any]]:
+    """Table and overview, also of a batch that was stopped; gives the table."""
+    from ..batch import ordered, rows, write_csv, write_overview
+
+    table = ordered(rows(outcomes), sort)
+    write_csv(table, folder / "summary.csv")
+    write_overview(table, _settings(outcomes), [sort, *(name for name in SHOWN_METRICS if name != sort)], folder)
+    return table
+
+
+def _write_pages(outcomes: "Sequence[Outcome]", folder: Path) -> None:
+    """The review of each complete log that has none yet, beside it."""
+    from ..review import review
+    from ..review.page import write_page
+
+    for record in (outcome.record for outcome in outcomes if outcome.record):
+        page = folder / f"{record.id}.html"
+        if record.log.endswith(".mcap") and not page.exists():
+            try:
+                write_page(review(folder / record.log), page)
+            except LogError as error:
+                typer.echo(f"{record.id}: no review: {error}", err=True)
+
+
+def _check_plotly() -> None:
+    from importlib.util import find_spec
+
+    if find_spec("plotly") is None:
+        raise InputError("--pages needs plotly: pip install 'atlas_cueing[report]'")
+
+
+def _check_metric(name: str) -> None:
+    from ..batch import metric_names
+    from ..scenario.mistakes import nearest
+
+    if name not in metric_names():
+        raise InputError(f"--sort {name}: no such metric; {nearest(name, metric_names())}")
+
+
+def _settings(outcomes: "Sequence[Outcome]") -> list[str]:
+    return list(dict.fromkeys(key for outcome in outcomes for key in outcome.run.settings))
+
+
+def _json(table: Sequence[Mapping[str, Any]], folder: Path) -> str:
+    from .text import one_json
+
+    counts = Counter(row["result"] for row in table)
+    return one_json({"folder": str(folder), "runs": len(table), "results": dict(counts), "table": table})
+
+
+def _text(table: Sequence[Mapping[str, Any]], settings: Sequence[str], sort: str, top: int, folder: Path) -> str:
+    """The first rows, counts, and where everything is."""
+    from ..review.figures import Figure
+    from .text import aligned
+
+    swept = [key for key in settings if len({repr(row.get(key)) for row in table}) > 1]
+    names = [sort, *(name for name in SHOWN_METRICS if name != sort)][:4]
+    figures = {name: Figure.of(name) for name in names}
+    heads = ["run", "result", *swept, *(figure.title for figure in figures.values())]
+    cells = [
+        [row["run"], row["result"], *(_short(row.get(key)) for key in swept), *(f.text(row.get(n)) for n, f in figures.items())]
+        for row in table[:top]
+    ]
+    widths = [max(map(len, column)) for column in zip(heads, *cells, strict=True)]
+    lines = ["  ".join(_cells(line, widths)).rstrip() for line in (heads, *cells)]
+    counts = Counter(row["result"] for row in table)
+    flown = sum(row.get("duration_s", 0.0) for row in table)
+    tail = [
+        ("runs", ", ".join(f"{count} {result}" for result, count in counts.most_common())),
+        ("violations", str(sum(row.get("violations", 0) for row in table))),
+        ("flight", spoken(flown)),
+        ("table", str(folder / "summary.csv")),
+        ("overview", str(folder / "index.html")),
+    ]
+    return "\n".join([*(lines if top else []), *aligned(tail, "")])
+
+
+def _cells(line: Sequence[str], widths: Sequence[int]) -> list[str]:
+    """Run and result to the left, numbers to the right."""
+    return [
+        f"{text:<{width}}" if i < 2 else f"{text:>{width}}" for i, (text, width) in enumerate(zip(line, widths, strict=True))
+    ]
+
+
+def _short(value: Any) -> str:
+    return f"{value:.5g}" if isinstance(value, float) else "-" if value is None else str(value)
+
+
+def _end(outcomes: "Sequence[Outcome]", *, stopped: bool) -> None:
+    """Say what was found; raises Exit(1) if anything was."""
+    findings = [line for outcome in outcomes for line in _findings(outcome)]
+    for line in findings[:_SHOWN_FINDINGS]:
+        typer.echo(line, err=True)
+    if len(findings) > _SHOWN_FINDINGS:
+        typer.echo(f"and {len(findings) - _SHOWN_FINDINGS} more; summary.csv has all", err=True)
+    left = sum(outcome.record is None or not outcome.record.final for outcome in outcomes)
+    if left:
+        typer.echo(f"{'stopped: ' if stopped else ''}{left} runs not done; the same command flies them", err=True)
+    if findings or left:
+        raise typer.Exit(1)
+
+
+def _findings(outcome: "Outcome") -> list[str]:
+    record = outcome.record
+    if record is None or record.clean:
+        return []
+    failed = [f"{record.id}: {record.result}: {record.reason}"] if record.result != "ok" else []
+    return failed + [f"{record.id}: {violation}" for violation in record.violations]

@@ -1,0 +1,94 @@
+"""How far a batch is, on stderr: a bar for people, a line now and then for files."""
+
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+import typer
+
+if TYPE_CHECKING:
+    from ..batch import PlannedRun, Record
+
+_LINE_EVERY = 15.0  # s between two plain lines
+
+
+class Count:
+    """Runs done and failed, how fast, and how long it may take yet."""
+
+    def __init__(self, runs: "Sequence[PlannedRun]") -> None:
+        self.total = len(runs)
+        self.done = self.failed = 0
+        self._flown = 0.0
+        self._ticks = {run.id: run.duration / run.step if run.duration else 0.0 for run in runs}
+        self._left = sum(self._ticks.values())
+        self._all = self._left
+        self._begun = perf_counter()
+
+    def add(self, record: "Record") -> None:
+        """One more run."""
+        self.done += 1
+        self.failed += not record.clean
+        self._flown += record.duration
+        self._left -= self._ticks.get(record.id, 0.0)
+
+    @property
+    def wall(self) -> float:
+        """Since the start, s."""
+        return perf_counter() - self._begun
+
+    def text(self) -> str:
+        """All of it in a line."""
+        speed = self._flown / max(self.wall, 1e-9)
+        return f"{self.done} of {self.total} runs done, {self.failed} failed, {speed:.0f} flight s a second{self._rest()}"
+
+    def _rest(self) -> str:
+        done = self._all - self._left
+        if done <= 0.0 or self.done == self.total:
+            return ""
+        return f", {spoken(self.wall * self._left / done)} left"
+
+
+def spoken(time: float) -> str:
+    """A time (s) in the unit that fits."""
+    if time < 100.0:
+        return f"{time:.0f} s"
+    return f"{time / 60.0:.0f} min" if time < 6000.0 else f"{time / 3600.0:.1f} h"
+
+
+@contextmanager
+def batch_progress(runs: "Sequence[PlannedRun]") -> "Iterator[Callable[[Record], None]]":
+    """A function to call with each record as it comes."""
+    count = Count(runs)
+    show = _bar if sys.stderr.isatty() else _lines
+    with show(count) as update:
+
+        def tell(record: "Record") -> None:
+            count.add(record)
+            update()
+
+        yield tell
+
+
+@contextmanager
+def _lines(count: Count) -> Iterator[Callable[[], None]]:
+    last = 0.0
+
+    def update() -> None:
+        nonlocal last
+        if count.wall - last >= _LINE_EVERY or count.done == count.total:
+            last = count.wall
+            typer.echo(count.text(), err=True)
+
+    yield update
+
+
+@contextmanager
+def _bar(count: Count) -> Iterator[Callable[[], None]]:
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn
+
+    with Progress(BarColumn(), TextColumn("{task.description}"), console=Console(stderr=True)) as bar:
+        task = bar.add_task(count.text(), total=count.total)
+        yield lambda: bar.update(task, completed=count.done, description=count.text())

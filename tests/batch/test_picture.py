@@ -1,0 +1,62 @@
+from itertools import pairwise, product
+from xml.etree import ElementTree as ET
+
+from atlas_cueing.batch.picture import parameters, picture
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def drawn(rows: list[dict[str, object]]) -> ET.Element:
+    return ET.fromstring(picture(rows, "x", "y", "m"))  # noqa: S314 - our own
+
+
+def marks(svg: ET.Element, tag: str) -> list[tuple[dict[str, str], str]]:
+    return [(mark.attrib, mark.findtext(f"{SVG}title", "")) for mark in svg.iter(f"{SVG}{tag}")]
+
+
+def test_a_grid_has_a_cell_for_each_pair() -> None:
+    rows: list[dict[str, object]] = [{"x": x, "y": y, "m": float(x)} for x, y in product((3, 1, 2), ("b", "a"))]
+    cells = marks(drawn(rows), "rect")
+    assert len(cells) == 6
+    places = {title: float(cell["x"]) for cell, title in cells}
+    assert places["1"] < places["2"] < places["3"]
+    assert {cell["fill"] for cell, _ in cells} == {"#440154", "#21918c", "#fde725"}
+    assert {cell["width"] for cell, _ in cells} == {"213.3"}
+
+
+def test_several_runs_of_a_cell_are_averaged() -> None:
+    rows: list[dict[str, object]] = [{"x": 1, "y": y, "m": m} for y, m in ((1, 2.0), (1, 4.0), (2, 5.0))]
+    assert {title for _, title in marks(drawn(rows), "rect")} == {"3", "5"}
+
+
+def test_draws_are_dots_where_their_values_are() -> None:
+    rows: list[dict[str, object]] = [{"x": i / 100, "y": 1.0 - i / 100, "m": float(i)} for i in range(101)]
+    dots = marks(drawn(rows), "circle")
+    assert len(dots) == 101
+    assert [(dot["cx"], dot["cy"]) for dot, title in dots if title == "25"] == [("350.0", "134.0")]
+
+
+def test_labels_do_not_run_into_each_other() -> None:
+    rows: list[dict[str, object]] = [{"x": f"a_long_name_{i}", "y": i, "m": 1.0} for i in range(90)]
+    texts = [(float(t.attrib["x"]), float(t.attrib["y"]), t.text or "") for t in drawn(rows).iter(f"{SVG}text")]
+    below = sorted(x for x, _, text in texts if text.startswith("a_long"))
+    beside = sorted(y for _, y, text in texts if text.isdigit())
+    assert min(b - a for a, b in pairwise(below)) > 7.0 * len("a_long_name_10")
+    assert min(b - a for a, b in pairwise(beside)) >= 16.0
+    assert len(below) >= 4
+    assert len(beside) >= 20
+
+
+def test_runs_without_the_figure_are_left_out_and_none_at_all_is_no_picture() -> None:
+    rows: list[dict[str, object]] = [{"x": 1, "y": 1, "m": float("nan")}, {"x": 1, "y": 2}, {"y": 1, "m": 1.0}]
+    assert picture(rows, "x", "y", "m") == ""
+    assert len(marks(drawn([*rows, {"x": 1, "y": 1, "m": 1.0}]), "rect")) == 1
+
+
+def test_names_are_escaped() -> None:
+    assert "<b>" not in picture([{"x": "<b>", "y": 1, "m": 1.0}], "x", "y", "m")
+
+
+def test_parameters_are_the_keys_that_vary() -> None:
+    rows: list[dict[str, object]] = [{"a": 1, "b": [1, 2], "c": 0}, {"a": 1, "b": [1, 3], "c": 0}, {"a": 1, "b": [1, 2]}]
+    assert parameters(rows, ["a", "b", "c", "d"]) == ["b", "c"]

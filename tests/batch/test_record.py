@@ -1,0 +1,55 @@
+import json
+from math import inf, isnan
+from pathlib import Path
+
+import pytest
+
+from atlas_cueing.batch.record import FINAL, Record, keep, kept
+
+RECORD = Record("r", "ok", "", "r.mcap", 12, 0.1, 0.5, ("wheel_speed = 2",), {"force_rms_m_s2": 1 / 3}, {"wheel_speed": 2.0})
+
+
+def test_what_is_kept_comes_back(tmp_path: Path) -> None:
+    (tmp_path / "r.mcap").touch()
+    keep(RECORD, tmp_path)
+    assert kept("r", tmp_path) == RECORD
+    assert {path.name for path in tmp_path.iterdir()} == {"r.json", "r.mcap"}
+    table = json.loads((tmp_path / "r.json").read_text())
+    assert (table["duration_s"], table["wall_s"], table["metrics"]) == (0.1, 0.5, {"force_rms_m_s2": 1 / 3})
+
+
+def test_figures_that_are_no_numbers_are_null(tmp_path: Path) -> None:
+    keep(Record("r", "ok", metrics={"a": inf, "b": float("nan")}), tmp_path)
+    assert json.loads((tmp_path / "r.json").read_text())["metrics"] == {"a": None, "b": None}
+    back = kept("r", tmp_path)
+    assert back
+    assert all(isnan(value) for value in back.metrics.values())
+
+
+@pytest.mark.parametrize("content", [b"", b"{", b"[]", b"3", b'{"id": "r"}', b"\xff", b"null"])
+def test_a_damaged_record_is_none(tmp_path: Path, content: bytes) -> None:
+    """A power cut may leave an empty file: that run is flown again."""
+    (tmp_path / "r.json").write_bytes(content)
+    assert kept("r", tmp_path) is None
+
+
+def test_a_record_without_its_log_or_of_another_run_is_none(tmp_path: Path) -> None:
+    keep(RECORD, tmp_path)
+    assert kept("r", tmp_path) is None
+    (tmp_path / "r.mcap").touch()
+    assert kept("r", tmp_path)
+    (tmp_path / "r.json").rename(tmp_path / "s.json")
+    assert kept("s", tmp_path) is None
+    assert kept("r", tmp_path) is None
+
+
+def test_only_what_would_end_the_same_is_final(tmp_path: Path) -> None:
+    for result in (*FINAL, "recording_failed", "worker_lost", "worker_differs", "interrupted"):
+        keep(Record("r", result), tmp_path)
+        assert (kept("r", tmp_path) is not None) == (result in FINAL)
+
+
+def test_clean_is_ok_within_all_limits() -> None:
+    assert not RECORD.clean
+    assert Record("r", "ok").clean
+    assert not Record("r", "vehicle_failed").clean

@@ -1,0 +1,64 @@
+import csv
+from math import nan
+from pathlib import Path
+
+from atlas_cueing.batch.alone import fly_alone
+from atlas_cueing.batch.batch import Outcome
+from atlas_cueing.batch.record import Record
+from atlas_cueing.batch.table import columns, metric_names, ordered, rows, write_csv
+
+from .sweeping import order, planned
+
+METRIC = "force_rms_m_s2"
+
+
+def outcomes(folder: Path) -> list[Outcome]:
+    blend, attitude, force, classical = planned(folder)
+    return [
+        Outcome(blend, Record(blend.id, "ok", "", "b.mcap", 31, 0.25, 0.1, ("x",), {METRIC: 2.0}, {"wheel_speed": 0.5})),
+        Outcome(attitude, Record(attitude.id, "ok", "", "a.mcap", 31, 0.25, 0.1, (), {METRIC: 1.0})),
+        Outcome(force, Record(force.id, "vehicle_failed", 'it said "no",\ntwice', metrics={METRIC: 0.0})),
+        Outcome(classical, None),
+    ]
+
+
+def test_a_row_has_what_it_was_and_what_came_of_it(tmp_path: Path) -> None:
+    first, _, failed, unflown = rows(outcomes(tmp_path))
+    assert first["run"] == outcomes(tmp_path)[0].run.id
+    assert (first["source"], first["scenario"], first["vehicle"]) == ("sweep.toml", "short", "c1722")
+    assert (first["method"], first["platform"], first["cueing.method"]) == ("blend", "atlas-2.9m", "blend")
+    assert (first["result"], first["violations"], first[METRIC], first["limit_use_wheel_speed"]) == ("ok", 1, 2.0, 0.5)
+    assert (first["ticks"], first["duration_s"], first["wall_s"]) == (31, 0.25, 0.1)
+    assert failed["result"] == "vehicle_failed"
+    assert unflown["result"] == "not_flown"
+    assert METRIC not in unflown
+
+
+def test_the_best_first_and_what_failed_last(tmp_path: Path) -> None:
+    table = ordered(rows(outcomes(tmp_path)), METRIC)
+    assert [row["method"] for row in table] == ["attitude", "blend", "force", "classical"]
+    flawed = [{**table[0], METRIC: nan}, *table[1:]]
+    assert [row["method"] for row in ordered(flawed, METRIC)] == ["blend", "attitude", "force", "classical"]
+
+
+def test_the_file_has_every_column_and_every_digit(tmp_path: Path) -> None:
+    table = rows(outcomes(tmp_path))
+    table[1][METRIC] = 1 / 3
+    write_csv(table, tmp_path / "summary.csv")
+    with (tmp_path / "summary.csv").open(newline="") as file:
+        read = list(csv.DictReader(file))
+    assert list(read[0]) == columns(table)
+    assert float(read[1][METRIC]) == 1 / 3
+    assert read[2]["reason"] == 'it said "no",\ntwice'
+    assert read[3][METRIC] == ""
+    assert len(read) == 4
+    assert not list(tmp_path.glob("*.part"))
+
+
+def test_metrics_are_known_before_anything_flies(tmp_path: Path) -> None:
+    run = planned(tmp_path)[0]
+    record = fly_alone(order(run, tmp_path))
+    (row,) = rows([Outcome(run, record)])
+    assert set(metric_names()) <= row.keys()
+    assert all("mismatch" in name or "drift" in name for name in set(record.metrics) - set(metric_names()))
+    assert METRIC in metric_names()
