@@ -89,7 +89,8 @@ def turning(s: complex, of: Scenario) -> tuple[complex, complex]:
         case BlendParameters() as p:  # s x = w + H (s L target - w + (target - x) / T)
             slow = low_pass(s, 1.0 / p.turn.smoothing)
             back = s + slow / p.turn.time
-            return s * (1.0 - slow * low_pass(s, p.bandwidth)) / back, s * slow * (s * low_pass(s, p.bandwidth) + 1.0 / p.turn.time) / back * target
+            low = low_pass(s, p.bandwidth)
+            return s * (1.0 - slow * low) / back, s * slow * (s * low + 1.0 / p.turn.time) / back * target
         case ForceParameters() as p:
             return 0.0, s * low_pass(s, p.bandwidth) * target
         case ClassicalParameters() as p:
