@@ -1,6 +1,7 @@
 """A flight that was recorded, as a vehicle."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 from ..errors import InputError
 from ..signals import VehicleState
@@ -17,7 +18,7 @@ class RecordedVehicle:
         """States in order of time, at least two. Raises InputError when there are fewer, or time does not go on."""
         if len(states) < 2:
             raise InputError(f"a recorded flight needs at least two states to know its step; this one has {len(states)}")
-        for before, now in zip(states, states[1:], strict=False):
+        for before, now in pairwise(states):
             if not now.time > before.time:
                 raise InputError(f"a recorded flight must go on in time: {now.time:.9g} s after {before.time:.9g} s")
         self._states = states
