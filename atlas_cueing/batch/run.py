@@ -131,6 +131,7 @@ class _Keeper:
         self._jumping = False
 
     def keep(self, states: list[VehicleState]) -> None:
+        """Take one block."""
         for tick in self._pipeline.block(states):
             self._sink.append(tick)
             self._note_jump(tick.vehicle)

@@ -26,9 +26,11 @@ class _Nothing:
     """The log of no flight at all."""
 
     def column(self, topic: str, field: str) -> Array:  # noqa: ARG002
+        """No values, whatever the field."""
         return np.zeros(0)
 
     def vector(self, topic: str, name: str) -> Array:  # noqa: ARG002
+        """No rows, of the width that the name asks for."""
         return np.zeros((0, 4 if name.startswith("q_") else 3))
 
 
