@@ -7,7 +7,9 @@
     |   `-- OutputError         the log cannot be written where it was asked for
     |-- VehicleError            the vehicle model failed in mid-run; what came before is good (exit status 1)
     |-- PlanningError           the trajectory generator refused a state; the certified stop takes over
-    `-- LogError                a log is damaged or not one of ours (exit status 1)
+    |-- LogError                a log is damaged or not one of ours (exit status 1)
+    |-- PacketError             a simulator's packet is not one, or cannot be believed; it is dropped (in `vehicles.flightgear`)
+    `-- SetPointError           a set-point packet is damaged, forged or not one of ours; it is not followed
 
 Messages carry evidence: what, which value, which bounds (written `lower <= value <= upper`), when and where.
 """
@@ -77,3 +79,7 @@ class PlanningError(AtlasError):
 
 class LogError(AtlasError):
     """A log is damaged, cut or not one of ours."""
+
+
+class SetPointError(AtlasError):
+    """A set-point packet is damaged, forged or not one of ours."""

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from .cueing import Cueing
+from .cueing import Cues
 from .signals import Tick, VehicleState, WheelDrive
 from .smoothing import Smoothing
 
@@ -12,7 +12,7 @@ from .smoothing import Smoothing
 class Pipeline:
     """One flight's chain from vehicle to wheels; cueing and smoothing hold the state, so use a new one for each flight."""
 
-    cueing: Cueing
+    cueing: Cues
     smoothing: Smoothing
     wheels: WheelDrive
 

@@ -24,6 +24,8 @@ TOOL = ROOT / "tools" / "frequency_response"
 SWEEP = ROOT / "scenarios" / "signal_sweep.toml"
 RATE_HZ = 120.0
 THREE = (0.631, 2.512, 6.31)  # rad/s
+# The linear stage: the planner of the defaults learns from what it is shown, and has no frequency response.
+ONSET = ("cueing.stage.planner=onset", "cueing.stage.onset_rad_s=2", "cueing.force_gain=0.4")
 
 
 def loaded() -> ModuleType:
@@ -51,7 +53,7 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def scenario(method: str) -> Scenario:
-    return load_scenario(SWEEP, [f"cueing.method={method}"])
+    return load_scenario(SWEEP, [f"cueing.method={method}", *ONSET])
 
 
 def measured(method: str, axis: str, frequency: float, follows: bool = False) -> dict[str, Any]:
@@ -71,7 +73,7 @@ def low_pass(s: complex, omega: float) -> complex:
 
 
 def stage(s: complex, of: Scenario) -> complex:
-    """Stage acceleration over what the head lacks, along x: the filter of `cueing/stage.py`, in continuous time."""
+    """Stage acceleration over what the head lacks, along x: the filter of `cueing/onset.py`, in continuous time."""
     p = of.file.cueing.stage_parameters()
     corner = 2.0 * pi * p.bandwidth
     return p.force_gain[0] * corner / (s + corner) * s / (s + p.recentre[0]) * s**2 / (s + p.onset[0]) ** 2

@@ -63,12 +63,19 @@ def _add(runs: dict[str, PlannedRun], wrong: dict[str, None], file: Path, overri
     for variant in variants:
         duration, step = _course(variant.scenario)
         try:
-            build(variant.scenario, step)
+            _check(variant.scenario, step)
         except InputError as error:
             wrong[f"{file}: {error}"] = None
             continue
         name = run_id(variant.scenario)
         runs.setdefault(name, PlannedRun(name, file, variant.scenario, variant.settings, duration, step))
+
+
+def _check(scenario: Scenario, step: float) -> None:
+    """Raises InputError for what flies only live, or on no platform at this step."""
+    _ = scenario.flight
+    if not scenario.needs_whole_flight:
+        build(scenario, step)
 
 
 def _course(scenario: Scenario) -> tuple[float | None, float]:

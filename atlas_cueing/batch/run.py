@@ -12,10 +12,9 @@ from ..cueing import attitude_jump
 from ..errors import OutputError, VehicleError
 from ..pipeline import Pipeline
 from ..recording import McapRecorder
-from ..scenario import Scenario, build
+from ..scenario import Evaluation, Scenario, evaluate, prepare
 from ..signals import Sink, Vehicle, VehicleState
 from ..vehicles import JsbsimVehicle, SignalFlight, SignalVehicle
-from .evaluate import Evaluation, evaluate
 from .interrupt import Interrupt
 
 Progress: TypeAlias = Callable[[float], None]  # called now and then with the flight time, s
@@ -81,8 +80,8 @@ def run_scenario(scenario: Scenario, log: Path, *, progress: Progress | None = N
     """
     begun = perf_counter()
     flown = Flown()
-    vehicle = _load(scenario, flown)
-    pipeline = build(scenario, vehicle.dt) if vehicle else None
+    loaded = _load(scenario, flown)
+    vehicle, pipeline = prepare(scenario, loaded) if loaded else (None, None)
     recorder = McapRecorder(
         log,
         head_S=scenario.platform.head_S,

@@ -17,6 +17,8 @@ from .batch import EPILOG as BATCH_EPILOG
 from .batch import batch
 from .compare import EPILOG as COMPARE_EPILOG
 from .compare import compare
+from .live import EPILOG as LIVE_EPILOG
+from .live import live
 from .platform import EPILOG as PLATFORM_EPILOG
 from .platform import platform
 from .recover import EPILOG as RECOVER_EPILOG
@@ -41,6 +43,7 @@ logging.getLogger("atlas_cueing").addHandler(logging.NullHandler())
 
 app.command(epilog=RUN_EPILOG)(run)
 app.command(epilog=BATCH_EPILOG)(batch)
+app.command(epilog=LIVE_EPILOG)(live)
 app.command(epilog=REVIEW_EPILOG)(review)
 app.command(epilog=COMPARE_EPILOG)(compare)
 app.command(epilog=RECUE_EPILOG)(recue)

@@ -17,6 +17,8 @@ Examples:
 
   atlas-cueing review f16_rolls.mcap --html f16_rolls.html --replay f16_rolls_3d.html
 
+  atlas-cueing review f16_rolls.mcap --view
+
   atlas-cueing review f16_rolls.mcap --json
 """
 
@@ -31,6 +33,8 @@ def review(
     replay: Annotated[
         Path | None, typer.Option("--replay", metavar="FILE", help="Write a 3D replay into one file for a browser.")
     ] = None,
+    view: Annotated[bool, typer.Option("--view", help="Show the flight in a browser until Ctrl-C, with a play bar.")] = False,
+    port: Annotated[int, typer.Option("--port", min=0, max=65535, help="Port of --view on this machine; 0: any.")] = 8080,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace existing HTML files.")] = False,
 ) -> None:
@@ -59,12 +63,21 @@ def review(
 
         write_page(found, html)
     if replay:
-        from ..review.replay import write_replay
+        from ..viewer import write_replay
 
-        write_replay(found, replay)
+        write_replay(found.run.platform, found.run.flight, replay)
     typer.echo(one_json(found.to_json()) if as_json else review_summary(found))
+    if view:
+        from ..viewer import play
+
+        title = found.run.log.metadata.get("scenario", "") or log.stem
+        play(found.run.platform, found.run.flight, _tell, port=port, title=title)
     if not found.clean:
         raise typer.Exit(1)
+
+
+def _tell(url: str) -> None:
+    typer.echo(f"view: {url} (end with Ctrl-C)", err=True)
 
 
 def review_summary(found: "Review") -> str:

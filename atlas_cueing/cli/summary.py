@@ -5,6 +5,7 @@ from math import degrees
 from typing import Any
 
 from ..batch import RunResult
+from ..live.session import LiveResult
 from ..rotation import Mat3, Vec3
 from ..scenario import Platform
 from ..wheels import headroom
@@ -17,6 +18,7 @@ _FELT = (
     ("angular rate", "rate", "rad_s", "deg/s", degrees(1.0)),
     ("attitude", "attitude", "rad", "deg", degrees(1.0)),
 )
+_PERCENTILES = (("p50", "half within"), ("p99", "99 % within"), ("p999", "99.9 % within"), ("max", "all within"))
 _STATISTICS = ("rms", "p95", "max")
 _LIMITS = ("wheel_speed", "wheel_acceleration", "wheel_jerk", "stage_travel", "stage_speed", "stage_acceleration", "stage_jerk")
 
@@ -32,6 +34,40 @@ def run_summary(result: RunResult) -> str:
             *aligned(_limit_rows(result.evaluation.limit_use), ""),
         ]
     )
+
+
+def live_summary(result: LiveResult) -> str:
+    """As `run_summary`, with how punctual the loop was."""
+    metrics = result.evaluation.metrics
+    head = [
+        ("result", f"{result.result}  {result.reason}".rstrip()),
+        ("log", str(result.log)),
+        ("flown", f"{result.duration:.2f} s, {result.ticks} ticks, {result.faults} faults, {result.dropped} samples dropped"),
+        ("violations", str(len(result.evaluation.violations))),
+    ]
+    return "\n".join(
+        [
+            *aligned(head, ""),
+            *aligned(_timing_rows(result), ""),
+            *_felt_table(metrics),
+            *aligned(_motion_rows(metrics), ""),
+            *aligned(_limit_rows(result.evaluation.limit_use), ""),
+        ]
+    )
+
+
+def _timing_rows(result: LiveResult) -> list[tuple[str, str]]:
+    timing, realtime = result.timing, result.punctual
+    rows = [
+        (title, ", ".join(f"{label} {timing[f'{name}_{key}_us']:.0f}" for key, label in _PERCENTILES) + " us")
+        for title, name in (("lateness", "lateness"), ("tick cost", "tick_cost"))
+    ]
+    missed = f"{timing['missed_deadlines']:.0f}, at most {timing['most_missed_in_a_row']:.0f} in a row"
+    rows.append(("missed deadlines", missed))
+    if realtime.granted or realtime.refused:
+        refused = f"; refused: {'; '.join(realtime.refused)}" if realtime.refused else ""
+        rows.append(("real time", f"{', '.join(realtime.granted) or 'nothing granted'}{refused}"))
+    return rows
 
 
 def _head(result: RunResult) -> list[tuple[str, str]]:

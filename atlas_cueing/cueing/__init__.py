@@ -4,7 +4,7 @@ A rotation method turns the vehicle into an orientation of the sphere; the stage
 Nothing is ever washed out to neutral.
 """
 
-from .cueing import Cueing, RotationMethod, build
+from .cueing import Cueing, Cues, RotationMethod, build
 from .jumps import attitude_jump
 from .parameters import (
     CLASSICAL_STAGE,
@@ -12,7 +12,9 @@ from .parameters import (
     BlendParameters,
     ClassicalParameters,
     ForceParameters,
+    HorizonParameters,
     MethodParameters,
+    PreviewParameters,
     SlowTurnParameters,
     StageParameters,
 )
@@ -23,8 +25,11 @@ __all__ = [
     "BlendParameters",
     "ClassicalParameters",
     "Cueing",
+    "Cues",
     "ForceParameters",
+    "HorizonParameters",
     "MethodParameters",
+    "PreviewParameters",
     "RotationMethod",
     "SlowTurnParameters",
     "StageParameters",

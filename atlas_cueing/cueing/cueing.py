@@ -26,6 +26,13 @@ class RotationMethod(Protocol):
         """Orientation q_WS and rate w_WS_W (rad/s) for this vehicle state."""
 
 
+class Cues(Protocol):
+    """Whatever gives a flight's cues in order: `Cueing` as it goes along, or a plan made for the whole flight."""
+
+    def step(self, vehicle: VehicleState) -> Cue:
+        """Cue for this vehicle state."""
+
+
 class Cueing:
     """Turns vehicle states into cues, at a fixed tick.
 

@@ -1,7 +1,7 @@
 """What a user can choose about cueing; defaults carry their source."""
 
 from dataclasses import dataclass
-from math import inf, pi, radians
+from math import e, inf, pi, radians
 from typing import TypeAlias
 
 from ..rotation import Vec3
@@ -88,28 +88,83 @@ class ClassicalParameters:
 
 
 @dataclass(frozen=True, slots=True)
+class PreviewParameters:
+    """Method `preview`: what the plan for a whole flight minimises, and how far it may turn the cabin beyond the vehicle.
+
+    rate, smoothing: of the turn beyond the vehicle's own; rate in rad/s, and an acceleration of at most 2 rate / (e smoothing):
+        as the slow turn of `blend` has them.
+    force_unit, rate_unit: errors of specific force (m/s^2) and of angular rate (rad/s) that weigh the same: what a pilot
+        begins to notice sideways and in roll (Reid & Nahon, UTIAS Report 296, 1985).
+    planning_rate: knots of the plan, Hz (assumed: far above the frequencies of what it may do).
+    rounds: how often rotation and stage are planned both at once, after one for the other. Of the bundled flights one gains
+        more than 1 % by the second round, and none by the third.
+    """
+
+    rate: float = radians(3.0)
+    smoothing: float = 0.25
+    force_unit: float = 0.17
+    rate_unit: float = radians(3.0)
+    planning_rate: float = 20.0
+    rounds: int = 2
+
+    @property
+    def acceleration(self) -> float:
+        """Largest acceleration of the turn beyond the vehicle's own, rad/s^2."""
+        return 2.0 * self.rate / (e * self.smoothing)
+
+
+@dataclass(frozen=True, slots=True)
+class HorizonParameters:
+    """How the stage plans ahead (`cueing.horizon`).
+
+    planning_rate: plans per second, at least (assumed; 25 to 100 Hz made no difference of 0.3 % to the force error).
+    length: from now to where every plan stands, s (assumed: braking is over by then, 3.5 / onset; 4 to 7 s made no difference).
+    blocks: pieces of constant jerk in a plan, short ones first (9 to 16 made no difference).
+    fade: time constant with which the demand is thought to go on, s (assumed); it counts only where a limit is in the way.
+    excess: the demand is limited smoothly at this many times what the onset filter could follow whatever came (found).
+    memory: how far back it is looked to see what share of the demand is worth moving for, s (assumed; 8 to 30 s do).
+    first_share: that share to begin with (found: more would cost where little is to be won).
+    doubt: mean square acceleration of the filter, m^2/s^4, at which experience counts as much as the first share (assumed).
+    """
+
+    planning_rate: float = 50.0
+    length: float = 5.0
+    blocks: int = 12
+    fade: float = 5.0
+    excess: float = 4.0
+    memory: float = 15.0
+    first_share: float = 0.2
+    doubt: float = 0.01
+
+
+@dataclass(frozen=True, slots=True)
 class StageParameters:
     """The stage: onsets of the acceleration that the rider's head should have, inside the travel; per axis x, y, z of W.
 
-    force_gain: factor on the demanded acceleration. A stage pays every push back with the opposite one: over 14 of the
-        bundled flights 0.4 changes the rms force error by -13 to +2 % against a still stage, 1.0 (onset 1.5) by -15 to +7 %.
-    onset: natural frequency of the braking high-pass, rad/s (found with the gain; TU Delft's classical set has 0.8 to 1).
+    force_gain: factor on the demanded acceleration.
+    onset: natural frequency of the braking high-pass, rad/s (found: lower is slower to brake and needs more travel; TU Delft's
+        classical set has 0.8 to 1).
     recentre: corner of the return to the centre, rad/s; 0 for none beyond the high-pass. The return takes at most
         travel recentre^2 of acceleration, which at 0.2 rad/s and 1 m is 0.04 m/s^2, below the 0.063 (horizontal) and 0.154
         m/s^2 (vertical) at which linear motion begins to be felt (Benson, Spencer & Stott, Aviation, Space and Environmental
         Medicine 57, 1986).
     bandwidth: corner of the low-pass on the demand, Hz (assumed).
     travel: no more than this of the platform's travel is used, m.
+    horizon: how to plan ahead; None for the onset filter by itself, which has to be slower to move or quicker to brake (of it
+        force_gain 0.4 with onset 2 did best).
     """
 
-    force_gain: Vec3 = (0.4, 0.4, 0.4)
-    onset: Vec3 = (2.0, 2.0, 2.0)
+    force_gain: Vec3 = ONES
+    onset: Vec3 = (0.7, 0.7, 0.7)
     recentre: Vec3 = (0.2, 0.2, 0.2)
     bandwidth: float = 5.0
     travel: Vec3 = (inf, inf, inf)
+    horizon: HorizonParameters | None = HorizonParameters()
 
 
-CLASSICAL_STAGE = StageParameters((0.6, 0.6, 0.5), onset=(0.8, 1.0, 1.0), recentre=(0.0, 0.0, 0.2), travel=(0.6, 0.6, 0.6))
+CLASSICAL_STAGE = StageParameters(
+    (0.6, 0.6, 0.5), onset=(0.8, 1.0, 1.0), recentre=(0.0, 0.0, 0.2), travel=(0.6, 0.6, 0.6), horizon=None
+)
 """The TU Delft set for `classical`; the travel is assumed, that of a hexapod of 60 inch stroke."""
 
 MethodParameters: TypeAlias = AttitudeParameters | BlendParameters | ForceParameters | ClassicalParameters

@@ -5,5 +5,16 @@ from .deviation import vehicle_attitude
 from .flight import Columns, Flight
 from .limits import limit_use, violations
 from .metrics import metrics
+from .ridden import ridden
 
-__all__ = ["Columns", "Flight", "consistency", "limit_use", "metrics", "reintegrate", "vehicle_attitude", "violations"]
+__all__ = [
+    "Columns",
+    "Flight",
+    "consistency",
+    "limit_use",
+    "metrics",
+    "reintegrate",
+    "ridden",
+    "vehicle_attitude",
+    "violations",
+]

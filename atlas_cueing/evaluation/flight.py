@@ -1,6 +1,6 @@
 """The columns of one run."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Protocol
 
 import numpy as np
@@ -72,3 +72,7 @@ class Flight:
             felt_f=log.vector("/felt", "f"),
             felt_w=log.vector("/felt", "w"),
         )
+
+    def rows(self, rows: slice) -> "Flight":
+        """A part of the flight."""
+        return Flight(**{field.name: getattr(self, field.name)[rows] for field in fields(self)})

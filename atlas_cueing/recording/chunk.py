@@ -1,19 +1,21 @@
 """From a block of ticks to the bytes and the index of one MCAP chunk, without a loop over messages."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..rotation import Vec3
-from ..signals import TOPICS, direction_error, felt
+from ..signals import TIMING, TOPICS, Topic, direction_error, felt
 from .schemas import TF
 from .transforms import RATE_HZ, put_transforms, transform_template
-from .wire import Array, Records, Times, flat_dtype, flat_template, log_times, put, repeat
+from .wire import Array, Records, Times, flat_dtype, flat_template, put, record_content, repeat
 
 _STARTS = np.cumsum([0] + [len(topic.fields) for topic in TOPICS])  # of each topic in a row; /felt comes last
 ROW = int(_STARTS[-2])  # numbers in a row of `signals.tick_row`
+LIVE_ROW = ROW + len(TIMING.fields)  # in a live one: the fields of /timing follow
+ELAPSED = ROW + TIMING.fields.index("elapsed_s")  # its place in a live row
 _VEHICLE_F = slice(8, 11)
 _MOTION = int(_STARTS[2])  # then time, q, w, alpha, p, v, a
 _Q, _W, _ALPHA, _P, _A = (slice(_MOTION + start, _MOTION + end) for start, end in ((1, 5), (5, 8), (8, 11), (11, 14), (17, 20)))
@@ -36,20 +38,30 @@ class EncodedChunk:
     data: bytes
     index: dict[int, NDArray[np.uint64]]
 
+    def messages(self) -> Iterator[tuple[int, int, bytes]]:
+        """Channel, log time (ns) and content of each message, channel by channel."""
+        for channel, entries in self.index.items():
+            for log_time, offset in entries.tolist():
+                start, end = record_content(self.data, offset)
+                yield channel, log_time, self.data[start:end]
+
 
 class ChunkEncoder:
-    """Encodes blocks of ticks; `channels` names the topics to write and their ids, the others are left out."""
+    """Encodes blocks of ticks; `channels` names the topics to write and their ids, the others are left out.
 
-    def __init__(self, head_S: Vec3, channels: Mapping[str, int]) -> None:
+    `topics` are TOPICS, or LIVE_TOPICS for live rows.
+    """
+
+    def __init__(self, head_S: Vec3, channels: Mapping[str, int], topics: Sequence[Topic] = TOPICS) -> None:
         self._head_S = head_S
         self._tf_channel = channels.get(TF)
         self._tf_template = transform_template(channels.get(TF, 0))
         self._tf_slot = -1.0
-        self._columns = {
-            t.name: slice(a, b) for t, a, b in zip(TOPICS, _STARTS, _STARTS[1:], strict=False) if t.name in channels
-        }
         self._channels = channels
-        sizes = {t.name: len(t.fields) for t in TOPICS if t.name in channels}
+        sizes = {t.name: len(t.fields) for t in topics}
+        ends = np.cumsum(list(sizes.values())).tolist()
+        self._columns = {name: slice(end - sizes[name], end) for name, end in zip(sizes, ends, strict=True) if name in channels}
+        sizes = {name: size for name, size in sizes.items() if name in channels}
         self._template = np.zeros((), np.dtype([(name, flat_dtype(size)) for name, size in sizes.items()]))
         self._offsets: dict[str, int] = {}  # of each message in a tick
         offset = 0
@@ -58,9 +70,8 @@ class ChunkEncoder:
             self._offsets[name] = offset
             offset += flat_dtype(size).itemsize
 
-    def encode(self, rows: Array, statuses: Sequence[Extra]) -> EncodedChunk:
-        """Chunk of rows (n, ROW) of `signals.tick_row`, in order of time, with /felt and /tf made from them."""
-        times = log_times(rows[:, 0])
+    def encode(self, rows: Array, times: Times, statuses: Sequence[Extra]) -> EncodedChunk:
+        """Chunk of rows (n, ROW or LIVE_ROW) in order of time, with log times (n,) in ns; /felt and /tf are made from them."""
         ticks = self._encode_ticks(rows, times)
         extras = sorted([*self._transforms(rows, times), *statuses], key=lambda extra: (extra.ticks, extra.log_time))
         return EncodedChunk(_merge(ticks, extras), self._index(ticks, times, extras))

@@ -48,7 +48,8 @@ class Container:
         self._channels: list[Channel] = []
         self._attachments: list[AttachmentIndex] = []
         self._metadata: list[MetadataIndex] = []
-        self._chunks: list[ChunkIndex] = []
+        self._chunk_indexes: list[bytes] = []  # as bytes: a live log has ten a second
+        self._span: tuple[int, int] | None = None
         self._counts: dict[int, int] = {}
         self._put(MAGIC)
         self._record(Header(profile="", library=LIBRARY))
@@ -85,17 +86,20 @@ class Container:
             offsets[channel] = self._position + len(data)
             data += _message_index(channel, index.astype("<u8").tobytes())
             self._counts[channel] = self._counts.get(channel, 0) + len(index)
-        self._chunks.append(
-            ChunkIndex(
-                chunk_length=length,
-                chunk_start_offset=self._position,
-                compression="zstd",
-                compressed_size=len(packed),
-                message_end_time=last,
-                message_index_length=len(data) - length,
-                message_index_offsets=offsets,
-                message_start_time=first,
-                uncompressed_size=size,
+        self._span = (min(first, self._span[0]), max(last, self._span[1])) if self._span else (first, last)
+        self._chunk_indexes.append(
+            _serialise(
+                ChunkIndex(
+                    chunk_length=length,
+                    chunk_start_offset=self._position,
+                    compression="zstd",
+                    compressed_size=len(packed),
+                    message_end_time=last,
+                    message_index_length=len(data) - length,
+                    message_index_offsets=offsets,
+                    message_start_time=first,
+                    uncompressed_size=size,
+                )
             )
         )
         self._put(data)
@@ -114,32 +118,33 @@ class Container:
         self._record(Footer(start, offset_start, zlib.crc32(unchecked, self._crc)))
         self._put(MAGIC)
 
-    def _summary(self) -> Iterable[tuple[Opcode, list[McapRecord]]]:
+    def _summary(self) -> Iterable[tuple[Opcode, list[bytes]]]:
         """Groups of the summary, in order."""
-        yield Opcode.SCHEMA, [*self._schemas]
-        yield Opcode.CHANNEL, [*self._channels]
-        yield Opcode.STATISTICS, [self._statistics()]
-        yield Opcode.CHUNK_INDEX, [*self._chunks]
-        yield Opcode.ATTACHMENT_INDEX, [*self._attachments]
-        yield Opcode.METADATA_INDEX, [*self._metadata]
+        yield Opcode.SCHEMA, [_serialise(schema) for schema in self._schemas]
+        yield Opcode.CHANNEL, [_serialise(channel) for channel in self._channels]
+        yield Opcode.STATISTICS, [_serialise(self._statistics())]
+        yield Opcode.CHUNK_INDEX, self._chunk_indexes
+        yield Opcode.ATTACHMENT_INDEX, [_serialise(attachment) for attachment in self._attachments]
+        yield Opcode.METADATA_INDEX, [_serialise(metadata) for metadata in self._metadata]
 
     def _statistics(self) -> Statistics:
+        first, last = self._span or (0, 0)
         return Statistics(
             attachment_count=len(self._attachments),
             channel_count=len(self._channels),
             channel_message_counts=dict(sorted(self._counts.items())),
-            chunk_count=len(self._chunks),
+            chunk_count=len(self._chunk_indexes),
             message_count=sum(self._counts.values()),
-            message_end_time=max((chunk.message_end_time for chunk in self._chunks), default=0),
-            message_start_time=min((chunk.message_start_time for chunk in self._chunks), default=0),
+            message_end_time=last,
+            message_start_time=first,
             metadata_count=len(self._metadata),
             schema_count=len(self._schemas),
         )
 
-    def _group(self, opcode: Opcode, records: list[McapRecord]) -> SummaryOffset:
+    def _group(self, opcode: Opcode, records: list[bytes]) -> SummaryOffset:
         start = self._position
         for record in records:
-            self._record(record)
+            self._put(record)
         return SummaryOffset(opcode, start, self._position - start)
 
     def _record(self, record: McapRecord) -> tuple[int, int]:

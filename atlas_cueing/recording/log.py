@@ -2,21 +2,22 @@
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from ..errors import LogError
-from .wire import Array
+from .wire import Array, Times
 
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """All messages of a topic: `values` (n, fields) in the order of the log."""
+    """All messages of a topic: `values` (n, fields) and `log_times` (n,) in ns, in the order of the log."""
 
     fields: tuple[str, ...]
     values: Array
+    log_times: Times = field(default_factory=lambda: np.empty(0, np.uint64))
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +33,8 @@ class Status:
 class Log:
     """A complete log of one run.
 
-    `tables` has one Table a topic of doubles, `metadata` is the record `atlas.run`, `attachments` are files by name.
+    `tables` has one Table a topic of doubles, `metadata` is the record `atlas.run`, `attachments` are files by name,
+    `transforms` what /tf tells: position of the stage and orientation of the cabin.
     """
 
     path: Path
@@ -40,6 +42,7 @@ class Log:
     metadata: Mapping[str, str]
     attachments: Mapping[str, bytes]
     statuses: tuple[Status, ...]
+    transforms: Table | None = None
 
     def column(self, topic: str, field: str) -> Array:
         """One field over the whole run, (n,), in the unit of its name. Raises LogError if the log does not have it."""
@@ -66,9 +69,10 @@ class Log:
         return self.tables[topic]
 
 
-def table_of(fields: tuple[str, ...], pieces: list[Array]) -> Table:
+def table_of(fields: tuple[str, ...], pieces: list[tuple[Array, Times]]) -> Table:
     """A table from the pieces of its chunks, which are let go of."""
-    values = np.concatenate(pieces) if pieces else np.empty((0, len(fields)))
+    values = np.concatenate([values for values, _ in pieces]) if pieces else np.empty((0, len(fields)))
+    times = np.concatenate([times for _, times in pieces]) if pieces else np.empty(0, np.uint64)
     pieces.clear()
-    values.flags.writeable = False
-    return Table(fields, values)
+    values.flags.writeable = times.flags.writeable = False
+    return Table(fields, values, times)

@@ -14,8 +14,9 @@ from ..errors import LogError
 from .log import Log, Status, Table, table_of
 from .recorder import RUN_METADATA
 from .records import RecordReader, unpack
-from .schemas import STATUS, flat_fields, message_class
-from .wire import MESSAGE_OPCODE, RECORD_HEAD, Array, flat_dtype, take
+from .schemas import STATUS, TF, flat_fields, message_class
+from .transforms import POSE, take_transforms, transform_template
+from .wire import MESSAGE_OPCODE, RECORD_HEAD, Array, Records, Times, flat_dtype, take
 
 MAX_LOG = 4 * 2**30  # bytes of messages unpacked; over an hour at 1 kHz
 _HEAD = 22 + RECORD_HEAD  # bytes before the body of a message record
@@ -55,7 +56,8 @@ class _Content:
         self._schemas: dict[int, Schema] = {}
         self._channels: dict[int, Channel] = {}
         self._fields: dict[int, tuple[str, ...]] = {}  # of the channels with flat messages
-        self._pieces: dict[int, list[Array]] = {}
+        self._pieces: dict[int, list[tuple[Array, Times]]] = {}
+        self._transforms: dict[int, list[tuple[Array, Times]]] = {}
         self._status_class: dict[int, Any] = {}
         self._statuses: list[Status] = []
         self._metadata: dict[str, dict[str, str]] = {}
@@ -82,7 +84,9 @@ class _Content:
         tables: dict[str, Table] = {}
         for channel, fields in self._fields.items():
             tables[self._channels[channel].topic] = table_of(fields, self._pieces[channel])
-        return Log(path, tables, self._metadata[RUN_METADATA], self._attachments, tuple(self._statuses))
+        poses = [table_of(POSE, pieces) for pieces in self._transforms.values()]
+        transforms = poses[0] if poses else None
+        return Log(path, tables, self._metadata[RUN_METADATA], self._attachments, tuple(self._statuses), transforms)
 
     def _add_channel(self, channel: Channel) -> None:
         self._channels[channel.id] = channel
@@ -91,6 +95,8 @@ class _Content:
             return
         if channel.topic == STATUS:
             self._status_class[channel.id] = message_class(schema.name, schema.data)
+        elif channel.topic == TF:
+            self._transforms[channel.id] = []
         elif (fields := flat_fields(schema.name, schema.data)) is not None:
             self._fields[channel.id], self._pieces[channel.id] = fields, []
 
@@ -103,22 +109,38 @@ class _Content:
         for channel, starts in _message_starts(data).items():
             if channel in self._fields:
                 self._pieces[channel].append(self._flat(channel, data, np.array(starts)))
+            if channel in self._transforms:
+                self._transforms[channel].append(self._poses(data, np.array(starts)))
             for start in starts if channel in self._status_class else ():
                 end = start + RECORD_HEAD + _boundary(data, start)[1]
                 message = self._status_class[channel].FromString(data[start + _HEAD : end])
                 self._statuses.append(Status(message.time_s, message.state, message.reason))
 
-    def _flat(self, channel: int, data: bytes, starts: NDArray[np.int64]) -> Array:
-        """Values (n, fields) of the messages of a channel at `starts`, after a look at every tag and length."""
+    def _flat(self, channel: int, data: bytes, starts: NDArray[np.int64]) -> tuple[Array, Times]:
+        """Values (n, fields) and log times of the messages of a channel at `starts`, after a look at every tag and length."""
         fields = self._fields[channel]
-        dtype = flat_dtype(len(fields))
-        if starts[-1] + dtype.itemsize <= len(data):
-            windows = np.lib.stride_tricks.sliding_window_view(np.frombuffer(data, np.uint8), dtype.itemsize)
-            records = windows[starts].view(dtype)[:, 0]
+        records = _records(data, starts, flat_dtype(len(fields)))
+        if records is not None:
             values = take(records, len(fields))
-            if values is not None and np.all(records["length"] == dtype.itemsize - RECORD_HEAD):
-                return values
+            if values is not None and np.all(records["length"] == records.itemsize - RECORD_HEAD):
+                return values, records["log_time"].copy()
         raise LogError(f"a message of {self._channels[channel].topic} is not {len(fields)} doubles")
+
+    def _poses(self, data: bytes, starts: NDArray[np.int64]) -> tuple[Array, Times]:
+        records = _records(data, starts, transform_template(0).dtype)
+        poses = take_transforms(records) if records is not None else None
+        if records is None or poses is None:
+            raise LogError(f"a message of {TF} is not base -> stage -> cabin as this program writes it")
+        return poses, records["log_time"].copy()
+
+
+def _records(data: bytes, starts: NDArray[np.int64], dtype: np.dtype[np.void]) -> Records | None:
+    """The records of one layout at `starts`; None when the last one does not fit into the data."""
+    if starts[-1] + dtype.itemsize > len(data):
+        return None
+    windows = np.lib.stride_tricks.sliding_window_view(np.frombuffer(data, np.uint8), dtype.itemsize)
+    records: Records = windows[starts].view(dtype)[:, 0]
+    return records
 
 
 def _message_starts(data: bytes) -> dict[int, list[int]]:

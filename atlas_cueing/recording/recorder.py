@@ -9,15 +9,15 @@ import numpy as np
 
 from ..errors import OutputError
 from ..rotation import Vec3
-from ..signals import TOPICS, Tick, tick_row
-from .chunk import ROW, ChunkEncoder, Extra
+from ..signals import LIVE_TOPICS, TOPICS, Tick, tick_row
+from .chunk import ELAPSED, LIVE_ROW, ROW, ChunkEncoder, Extra
 from .container import Container
 from .schemas import STATUS, STATUS_SCHEMA, TF, message_class, schema_of, status_schema
-from .wire import LATEST_S, Array, log_times, record_template
+from .wire import EPOCH_NS, LATEST_S, Array, Times, live_log_times, log_times, record_template
 
 RUN_METADATA = "atlas.run"
 MAX_CHUNK_TICKS = 16384  # 16 MB of messages: well inside what the reader will unpack
-_NAMES = (*(topic.name for topic in TOPICS), STATUS, TF)
+_NAMES = (*(topic.name for topic in LIVE_TOPICS), STATUS, TF)
 _BEFORE_START = -1.0  # s; no tick yet
 _pack = Struct(f"{ROW}d").pack
 
@@ -38,6 +38,7 @@ class McapRecorder:
         attachments: Mapping[str, bytes],
         chunk_ticks: int = 512,
         skip_topics: Collection[str] = (),
+        started_ns: int | None = None,
     ) -> None:
         """Open the log.
 
@@ -48,6 +49,8 @@ class McapRecorder:
             attachments: TOML files by name.
             chunk_ticks: ticks a chunk; what a killed process loses at most.
             skip_topics: topics left out.
+            started_ns: makes it a live log: wall clock when the loop started, ns since 1970; log time is this plus the real
+                time elapsed. Without it log time is simulated time from 2000-01-01 on.
 
         Raises:
             OutputError: the file cannot be written, a topic is unknown or a chunk too large or empty.
@@ -59,9 +62,13 @@ class McapRecorder:
         self._part = path.with_name(path.name + ".part")
         self._metadata = dict(metadata)
         self._rows = bytearray()
-        self._full = chunk_ticks * ROW * 8  # bytes of rows that make a chunk
+        self._started = started_ns
+        self._topics = TOPICS if started_ns is None else LIVE_TOPICS
+        self._row = ROW if started_ns is None else LIVE_ROW
+        self._full = chunk_ticks * self._row * 8  # bytes of rows that make a chunk
         self._statuses: list[tuple[float, bytes]] = []
         self._latest = _BEFORE_START  # s; time of the last tick written
+        self._latest_log_time = started_ns or EPOCH_NS
         self._failure = ""
         try:
             self._file = os.open(self._part, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o666)
@@ -74,7 +81,13 @@ class McapRecorder:
         """Keep one tick. Raises OutputError when this or any earlier chunk could not be written."""
         self._rows += _pack(*tick_row(tick))
         if len(self._rows) >= self._full:
-            self._flush()
+            self.flush()
+
+    def append_live(self, row: bytes) -> None:
+        """Keep one tick of a live log: LIVE_ROW doubles as they lie in memory. Raises as `append`."""
+        self._rows += row
+        if len(self._rows) >= self._full:
+            self.flush()
 
     def status(self, time: float, state: str, reason: str) -> None:
         """Keep a change of state at `time` (s); it stands after the ticks up to that time."""
@@ -87,7 +100,7 @@ class McapRecorder:
 
         Raises OutputError when anything could not be written; the log then stays a .part.
         """
-        self._flush()
+        self.flush()
         try:
             self._container.add_metadata(RUN_METADATA, {**self._metadata, "result": result, "reason": reason})
             self._container.finish()
@@ -113,20 +126,22 @@ class McapRecorder:
 
     def _start(self, attachments: Mapping[str, bytes], skip: Collection[str]) -> None:
         """Write what comes before the first tick."""
-        names = [name for name in _NAMES if name not in skip]
+        names = [name for name in (*(topic.name for topic in self._topics), STATUS, TF) if name not in skip]
         self._channels = {name: self._container.add_channel(name, *schema_of(name)) for name in names}
         for name, data in attachments.items():
             self._container.add_attachment(name, "application/toml", data)
         self._status_class = message_class(STATUS_SCHEMA, status_schema())
-        self._encoder = ChunkEncoder(self._head_S, self._channels)
+        self._encoder = ChunkEncoder(self._head_S, self._channels, self._topics)
 
-    def _flush(self) -> None:
-        """Write the ticks and states kept so far as one chunk."""
+    def flush(self) -> None:
+        """Write the ticks and states kept so far as one chunk. Raises as `append`."""
         self._refuse_after_failure()
-        rows, self._rows = np.frombuffer(self._rows).reshape(-1, ROW), bytearray()
+        rows, self._rows = np.frombuffer(self._rows).reshape(-1, self._row), bytearray()
         self._check_time("tick", rows[:, 0], self._latest)
+        times = self._log_times(rows)
         self._latest = float(rows[-1, 0]) if len(rows) else self._latest
-        chunk = self._encoder.encode(rows, self._status_records(rows[:, 0]))
+        self._latest_log_time = int(times[-1]) if len(rows) else self._latest_log_time
+        chunk = self._encoder.encode(rows, times, self._status_records(rows[:, 0], times))
         self._statuses = []
         try:
             if chunk.data:
@@ -134,15 +149,24 @@ class McapRecorder:
         except OSError as error:
             raise self._fail(error) from error
 
-    def _status_records(self, times: Array) -> list[Extra]:
-        """The changes of state of this chunk, each after the ticks up to its time."""
+    def _log_times(self, rows: Array) -> Times:
+        """Log time (ns) of each tick."""
+        if self._started is None:
+            return log_times(rows[:, 0])
+        self._check_time("elapsed", rows[:, ELAPSED], _BEFORE_START)
+        return live_log_times(rows[:, ELAPSED], self._started)
+
+    def _status_records(self, ticks: Array, times: Times) -> list[Extra]:
+        """The changes of state of this chunk, each after the ticks up to its time; in a live log at the last one's."""
         if STATUS not in self._channels:
             return []
         channel, records = self._channels[STATUS], []
         for time, body in self._statuses:
+            after = int(np.searchsorted(ticks, time, side="right"))
             log_time = int(log_times(np.array([time]))[0])
-            ticks = int(np.searchsorted(times, time, side="right"))
-            records.append(Extra(ticks, channel, log_time, record_template(channel, body, log_time)))
+            if self._started is not None:
+                log_time = int(times[after - 1]) if after else self._latest_log_time
+            records.append(Extra(after, channel, log_time, record_template(channel, body, log_time)))
         return records
 
     def _check_time(self, what: str, times: Array, later_than: float) -> None:

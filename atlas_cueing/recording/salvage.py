@@ -109,7 +109,7 @@ def rewrite(found: Salvage, output: Path, metadata: Mapping[str, str]) -> None:
 
     Raises LogError when the descriptions of the channels are lost, and OSError when it cannot be written.
     """
-    part = output.with_name(output.name + ".part")
+    part = output.with_name(output.name + ".recovering")  # the .part may be the very log that is recovered
     with part.open("wb") as target, found.path.open("rb") as source:
         container = Container(target.write)
         for number in range(1, max(found.channels, default=0) + 1):

@@ -9,7 +9,7 @@ from typing import Any
 from google.protobuf import descriptor_pool, message_factory, timestamp_pb2
 from google.protobuf.descriptor_pb2 import FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet
 
-from ..signals import TOPICS, Topic
+from ..signals import LIVE_TOPICS, Topic
 
 STATUS = "/status"
 TF = "/tf"
@@ -52,7 +52,7 @@ def schema_of(topic: str) -> tuple[str, bytes]:
         return STATUS_SCHEMA, status_schema()
     if topic == TF:
         return TF_SCHEMA, transforms_schema()
-    table = {t.name: t for t in TOPICS}
+    table = {t.name: t for t in LIVE_TOPICS}
     return table[topic].schema, flat_schema(table[topic])
 
 

@@ -8,8 +8,9 @@ one length.
 import numpy as np
 from numpy.typing import NDArray
 
-from .wire import HEAD, Array, Records, Times, record_template
+from .wire import HEAD, Array, Records, Times, record_template, repeat
 
+POSE = ("px_m", "py_m", "pz_m", "q_ws_w", "q_ws_x", "q_ws_y", "q_ws_z")  # what a message tells, as in /motion
 RATE_HZ = 60.0  # what viewers draw; more would only fill the log
 _VARINT = 5  # bytes; holds seconds below 2^35 and nanoseconds below 2^30
 _DOUBLE = [("tag", "u1"), ("value", "<f8")]
@@ -32,6 +33,22 @@ def put_transforms(records: Records, times: Times, q_WS: Array, p_WS_W: Array) -
         records[part]["nanoseconds"] = _varint(times % np.uint64(1_000_000_000))
     records["stage"]["translation"]["value"] = p_WS_W
     records["cabin"]["rotation"]["value"] = q_WS[:, [1, 2, 3, 0]]
+
+
+def take_transforms(records: Records) -> Array | None:
+    """POSE (n, 7) of n records of `transform_template`; None if anything else in them is not as the template has it."""
+    expected = repeat(transform_template(0), len(records))
+    for name in ("channel", "log_time", "publish_time"):
+        expected[name] = records[name]
+    for part in ("stage", "cabin"):
+        for name in ("seconds", "nanoseconds"):
+            expected[part][name] = records[part][name]
+    expected["stage"]["translation"]["value"] = records["stage"]["translation"]["value"]
+    expected["cabin"]["rotation"]["value"] = records["cabin"]["rotation"]["value"]
+    if expected.tobytes() != records.tobytes():
+        return None
+    turn = records["cabin"]["rotation"]["value"]
+    return np.hstack([records["stage"]["translation"]["value"], turn[:, [3, 0, 1, 2]]])
 
 
 def _dtype(parent: str, child: str) -> np.dtype[np.void]:

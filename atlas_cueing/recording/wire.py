@@ -27,6 +27,7 @@ HEAD = [
     ("log_time", "<u8"),
     ("publish_time", "<u8"),
 ]
+_MESSAGE_HEAD = 22  # bytes: channel, sequence, log time, publish time
 _ONE_BYTE_TAGS = 15
 
 
@@ -41,10 +42,22 @@ def log_times(time_s: Array) -> Times:
     return times
 
 
+def live_log_times(elapsed_s: Array, started_ns: int) -> Times:
+    """As `log_times`, for real time since a start at `started_ns` (ns since 1970)."""
+    since: Times = log_times(elapsed_s) - np.uint64(EPOCH_NS)
+    return since + np.uint64(started_ns)
+
+
 def record_template(channel: int, body: bytes, log_time: int = 0) -> bytes:
     """A whole MCAP message record with this body; sequence 0, publish time = log time."""
-    head = np.array((MESSAGE_OPCODE, 22 + len(body), channel, 0, log_time, log_time), dtype=HEAD)
+    head = np.array((MESSAGE_OPCODE, _MESSAGE_HEAD + len(body), channel, 0, log_time, log_time), dtype=HEAD)
     return head.tobytes() + body
+
+
+def record_content(data: bytes, offset: int) -> tuple[int, int]:
+    """Where the content of the message record at `offset` begins and ends."""
+    length = int.from_bytes(data[offset + 1 : offset + RECORD_HEAD], "little")
+    return offset + RECORD_HEAD + _MESSAGE_HEAD, offset + RECORD_HEAD + length
 
 
 def flat_dtype(fields: int) -> np.dtype[np.void]:

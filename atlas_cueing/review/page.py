@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError, OutputError
 from .comparison import Comparison
 from .figures import Figure, headlines
+from .punctuality import is_live
 from .review import Review
 
 if TYPE_CHECKING:
@@ -37,6 +38,7 @@ def write_page(found: Review, file: Path) -> None:
         ("", _findings(found)),
         ("Over time: drag to zoom, double-click to see all", plots.over_time(found)),
         ("In space", plots.in_space(run)),
+        *_punctuality(found),
         ("Use of the limits", plots.limit_bars(run)),
         ("Power spectra", plots.spectra(run)),
         ("Every figure", _metrics(["value"], found.metrics.keys(), [found.metrics])),
@@ -69,6 +71,15 @@ def _plots() -> Any:
             raise
         raise InputError("HTML pages need plotly; install it with: pip install 'atlas_cueing[report]'") from error
     return plots
+
+
+def _punctuality(found: Review) -> "list[tuple[str, Plot]]":
+    """Of a live run only."""
+    if not is_live(found.run):
+        return []
+    from .punctuality_plot import punctuality
+
+    return [("Punctuality of the real-time loop", punctuality(found.run))]
 
 
 def _header(found: Review) -> str:

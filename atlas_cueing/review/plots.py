@@ -50,7 +50,7 @@ def over_time(found: Review) -> Any:
     _lines(figure, 11, flight.time, flight.limited, ["wheels", "stage"])
     _mark(figure, found.findings)
     figure.update_xaxes(title_text="time, s", row=len(titles), col=1)
-    return _styled(figure, height=ROW * len(titles))
+    return styled(figure, height=ROW * len(titles))
 
 
 def in_space(run: RecordedRun) -> Any:
@@ -66,7 +66,7 @@ def in_space(run: RecordedRun) -> Any:
         tips = turned(flight.motion_q_WS, np.array(axis)) if len(flight.time) else np.empty((0, 3))
         figure.add_trace(_path(tips[thinned(tips)], name, colour), row=1, col=2)
     figure.update_scenes(aspectmode="data", xaxis_title="x", yaxis_title="y", zaxis_title="z")
-    return _styled(figure, height=560).update_layout(legend_y=-0.08)
+    return styled(figure, height=560).update_layout(legend_y=-0.08)
 
 
 def limit_bars(run: RecordedRun) -> Any:
@@ -79,7 +79,7 @@ def limit_bars(run: RecordedRun) -> Any:
         figure.add_trace(go.Bar(x=titles, y=used, name=f"wheel {k + 1} or stage {_AXES[k]}", marker_color=SERIES[k]))
     figure.add_hline(y=100.0, line_color=FAULT, line_dash="dash")
     figure.update_yaxes(title_text="% of the limit")
-    return _styled(figure, height=380)
+    return styled(figure, height=380)
 
 
 def spectra(run: RecordedRun) -> Any:
@@ -97,11 +97,11 @@ def spectra(run: RecordedRun) -> Any:
     for column, factor, vehicle, felt in pairs if length > 8 else ():
         for name, values, colour in (("vehicle", vehicle, VEHICLE), ("rider", felt, FELT)):
             hertz, power = welch(factor * np.nan_to_num(values), 1.0 / run.step, nperseg=length, axis=0)
-            line = _line(hertz[1:], power[1:].sum(axis=1), name, colour, legend=column == 1)
-            figure.add_trace(line, row=1, col=column)
+            trace = line(hertz[1:], power[1:].sum(axis=1), name, colour, legend=column == 1)
+            figure.add_trace(trace, row=1, col=column)
     figure.update_xaxes(type="log", title_text="Hz")
     figure.update_yaxes(type="log", exponentformat="power")
-    return _styled(figure, height=380)
+    return styled(figure, height=380)
 
 
 def overlays(names: Sequence[str], runs: Sequence[RecordedRun]) -> Any:
@@ -118,18 +118,18 @@ def overlays(names: Sequence[str], runs: Sequence[RecordedRun]) -> Any:
         )
         for row, values in enumerate(columns, 1):
             kept = thinned(values[:, None])
-            line = _line(flight.time[kept], values[kept], name, SERIES[k % len(SERIES)], legend=row == 1)
-            figure.add_trace(line, row=row, col=1)
+            trace = line(flight.time[kept], values[kept], name, SERIES[k % len(SERIES)], legend=row == 1)
+            figure.add_trace(trace, row=row, col=1)
     figure.update_xaxes(title_text="time, s", row=len(titles), col=1)
-    return _styled(figure, height=240 * len(titles))
+    return styled(figure, height=240 * len(titles))
 
 
 def _pair(figure: Any, row: int, time: Array, vehicle: Array, felt: Array) -> None:
     """Vehicle and rider, with the error between them filled."""
     kept = thinned(np.column_stack([vehicle, felt]))
-    figure.add_trace(_line(time[kept], vehicle[kept], "vehicle", VEHICLE, legend=row == 1), row=row, col=1)
-    line = _line(time[kept], felt[kept], "rider", FELT, legend=row == 1)
-    figure.add_trace(line.update(fill="tonexty", fillcolor=BAND), row=row, col=1)
+    figure.add_trace(line(time[kept], vehicle[kept], "vehicle", VEHICLE, legend=row == 1), row=row, col=1)
+    trace = line(time[kept], felt[kept], "rider", FELT, legend=row == 1)
+    figure.add_trace(trace.update(fill="tonexty", fillcolor=BAND), row=row, col=1)
 
 
 def _lines(
@@ -138,14 +138,14 @@ def _lines(
     """One line a column, and the limits of each dashed in its colour."""
     for k, name in enumerate(names):
         kept = thinned(values[:, k : k + 1])
-        line = _line(time[kept], values[kept, k], name, SERIES[k], legend=False).update(hovertemplate=f"{name} %{{y}}")
-        figure.add_trace(line, row=row, col=1)
+        trace = line(time[kept], values[kept, k], name, SERIES[k], legend=False).update(hovertemplate=f"{name} %{{y}}")
+        figure.add_trace(trace, row=row, col=1)
     for limit in sorted(set(limits or ())):
         for side in (limit, -limit):
             figure.add_hline(y=side, line_color=FAULT, line_dash="dot", line_width=1, row=row, col=1)
 
 
-def _line(x: Array, y: Array, name: str, colour: str, *, legend: bool) -> Any:
+def line(x: Array, y: Array, name: str, colour: str, *, legend: bool) -> Any:
     """One line of single precision, which is more than a screen shows."""
     return go.Scatter(
         x=np.asarray(x, dtype=np.float32),
@@ -162,8 +162,8 @@ def _mark(figure: Any, findings: Sequence[Finding]) -> None:
     """A line through all rows at each finding, and a mark with its text on top of the first row."""
     timed = [finding for finding in findings if finding.time is not None][:MOST_MARKS]
     for time in sorted({finding.time for finding in timed if finding.time is not None}):
-        line = {"color": FAULT, "width": 1}
-        figure.add_shape(type="line", xref="x", yref="paper", x0=time, x1=time, y0=0, y1=1, line=line, opacity=0.6)
+        stroke = {"color": FAULT, "width": 1}
+        figure.add_shape(type="line", xref="x", yref="paper", x0=time, x1=time, y0=0, y1=1, line=stroke, opacity=0.6)
     if timed:
         figure.add_trace(
             go.Scatter(
@@ -204,7 +204,8 @@ def _ball() -> Any:
     )
 
 
-def _styled(figure: Any, *, height: int) -> Any:
+def styled(figure: Any, *, height: int) -> Any:
+    """The figure in the manner of all others, `height` pixels high."""
     figure.update_layout(
         template="plotly_white",
         height=height,

@@ -6,10 +6,7 @@ from pathlib import Path
 
 from ..errors import InputError, LogError, OutputError, ScenarioError
 from ..recording import Log, McapRecorder
-from ..rotation import Quat, Vec3
-from ..scenario import Scenario, build, load_scenario
-from ..signals import VehicleState
-from ..vehicles import RecordedVehicle
+from ..scenario import Scenario, load_scenario, prepare, recorded_vehicle
 from .attachments import SCENARIO, as_inside, unpacked
 from .recorded_run import open_log
 
@@ -27,14 +24,14 @@ def recue(path: Path, settings: Sequence[str], output: Path) -> Scenario:
     log = open_log(path)
     if SCENARIO not in log.attachments:
         raise LogError(f"{path}: the log does not hold {SCENARIO}, so there is nothing to cue it by")
-    vehicle = recorded_vehicle(log)
+    recorded = recorded_vehicle(log)
     with unpacked(log) as folder:
         try:
             scenario = load_scenario(folder / SCENARIO, [_from_here(text) for text in settings])
         except ScenarioError as error:
             raise InputError("\n".join(as_inside(ScenarioError([mistake]), folder) for mistake in error.mistakes)) from error
         attachments = scenario.attachments()
-    pipeline = build(scenario, vehicle.dt)
+    vehicle, pipeline = prepare(scenario, recorded)
     recorder = _recorder(output, scenario, log, attachments)
     try:
         recorder.append(pipeline.step(vehicle.state))
@@ -47,23 +44,6 @@ def recue(path: Path, settings: Sequence[str], output: Path) -> Scenario:
         recorder.abandon()
         raise
     return scenario
-
-
-def recorded_vehicle(log: Log) -> RecordedVehicle:
-    """The vehicle of a log. Raises InputError for a log of fewer than two ticks."""
-    columns = (
-        log.column("/vehicle", "time_s"),
-        log.vector("/vehicle", "q_nb"),
-        log.vector("/vehicle", "w"),
-        log.vector("/vehicle", "f"),
-    )
-    return RecordedVehicle([_state(*row) for row in zip(*(column.tolist() for column in columns), strict=True)])
-
-
-def _state(time: float, q: list[float], w: list[float], f: list[float]) -> VehicleState:
-    q_NB: Quat = (q[0], q[1], q[2], q[3])
-    w_NB_B: Vec3 = (w[0], w[1], w[2])
-    return VehicleState(time, q_NB, w_NB_B, (f[0], f[1], f[2]))
 
 
 def _recorder(output: Path, scenario: Scenario, log: Log, attachments: dict[str, bytes]) -> McapRecorder:

@@ -5,15 +5,18 @@ from pathlib import Path
 
 import numpy as np
 
-from ..evaluation import metrics
+from ..evaluation import metrics, ridden
 from .actuators import check_actuators
 from .clock import check_clock
 from .course import check_course, notes
 from .finding import Finding
+from .honesty import check_honesty
 from .numbers import check_numbers
 from .orientation import check_orientation
+from .punctuality import check_punctuality, is_live, punctuality_notes
 from .recorded_run import RecordedRun, open_run
 from .sensation import check_sensation
+from .stamps import check_stamps
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,10 +73,10 @@ def review(path: Path) -> Review:
 
 def judge(run: RecordedRun) -> Review:
     """The review of a run that is open already."""
-    found = [*check_course(run), *check_clock(run), *check_numbers(run)]
+    found = [*check_course(run), *check_clock(run), *check_numbers(run), *check_stamps(run), *check_punctuality(run)]
     with np.errstate(all="ignore"):  # numbers out of range have been found by now
         if not any(finding.check == "ticks lost" for finding in found):
-            found += [*check_orientation(run), *check_actuators(run), *check_sensation(run)]
-        figures = metrics(run.flight)
+            found += [*check_orientation(run), *check_actuators(run), *check_sensation(run), *check_honesty(run)]
+        figures = metrics(ridden(run.flight, run.log.statuses) if is_live(run) else run.flight)
     found.sort(key=lambda finding: -1.0 if finding.time is None else finding.time)
-    return Review(run, tuple(found), tuple(notes(run)), figures)
+    return Review(run, tuple(found), (*notes(run), *punctuality_notes(run)), figures)

@@ -15,7 +15,9 @@ from ..cueing import (
     BlendParameters,
     ClassicalParameters,
     ForceParameters,
+    HorizonParameters,
     MethodParameters,
+    PreviewParameters,
     SlowTurnParameters,
     StageParameters,
 )
@@ -38,7 +40,9 @@ _ATTITUDE = AttitudeParameters()
 _BLEND = BlendParameters()
 _FORCE = ForceParameters()
 _CLASSICAL = ClassicalParameters()
+_PREVIEW = PreviewParameters()
 _STAGE = StageParameters()
+_HORIZON = HorizonParameters()
 
 
 def _degrees(angle: float) -> float:
@@ -47,17 +51,40 @@ def _degrees(angle: float) -> float:
 
 
 class StageTable(Table):
-    """`[cueing.stage]`: see StageParameters; `travel_m` is left out where the platform's own travel counts."""
+    """`[cueing.stage]`: see StageParameters; `travel_m` is left out where the platform's own travel counts.
 
+    planner: `horizon` plans ahead, by HorizonParameters; `onset` is the onset filter by itself.
+    """
+
+    planner: Literal["horizon", "onset"] = "horizon"
     onset_rad_s: Frequencies = _STAGE.onset
     recentre_rad_s: Corners = _STAGE.recentre
     bandwidth_hz: Annotated[float, number(0.0, 100.0, above=True)] = _STAGE.bandwidth
     travel_m: Travels | None = None
+    planning_rate_hz: Annotated[float, number(10.0, 1000.0)] = _HORIZON.planning_rate
+    horizon_s: Annotated[float, number(1.0, 20.0)] = _HORIZON.length
+    memory_s: Annotated[float, number(1.0, 1000.0)] = _HORIZON.memory
+    first_share: Annotated[float, number(0.0, 1.0)] = _HORIZON.first_share
+
+    def parameters(self, force_gain: tuple[Gain, Gain, Gain]) -> StageParameters:
+        """Parameters of the stage, SI."""
+        horizon = HorizonParameters(
+            planning_rate=self.planning_rate_hz, length=self.horizon_s, memory=self.memory_s, first_share=self.first_share
+        )
+        return StageParameters(
+            force_gain,
+            self.onset_rad_s,
+            self.recentre_rad_s,
+            self.bandwidth_hz,
+            self.travel_m or (inf, inf, inf),
+            horizon if self.planner == "horizon" else None,
+        )
 
 
 class ClassicalStageTable(StageTable):
     """`[cueing.stage]` of the method `classical`: see CLASSICAL_STAGE."""
 
+    planner: Literal["horizon", "onset"] = "onset"
     onset_rad_s: Frequencies = CLASSICAL_STAGE.onset
     recentre_rad_s: Corners = CLASSICAL_STAGE.recentre
     travel_m: Travels | None = CLASSICAL_STAGE.travel
@@ -72,9 +99,7 @@ class _Method(Table):
 
     def stage_parameters(self) -> StageParameters:
         """Parameters of the stage, SI."""
-        stage = self.stage
-        travel = stage.travel_m or (inf, inf, inf)
-        return StageParameters(self.force_gain, stage.onset_rad_s, stage.recentre_rad_s, stage.bandwidth_hz, travel)
+        return self.stage.parameters(self.force_gain)
 
 
 class AttitudeTable(_Method):
@@ -146,12 +171,36 @@ class ClassicalTable(_Method):
         )
 
 
+class PreviewTable(Table):
+    """Method `preview`, which has to know the whole flight: see PreviewParameters."""
+
+    method: Literal["preview"] = "preview"
+    align_rate_deg_s: FastRate = _degrees(_PREVIEW.rate)
+    align_smoothing_s: Duration = _PREVIEW.smoothing
+    force_unit_m_s2: Force = _PREVIEW.force_unit
+    rate_unit_deg_s: TurnRate = _degrees(_PREVIEW.rate_unit)
+    planning_rate_hz: Annotated[float, number(1.0, 100.0)] = _PREVIEW.planning_rate
+
+    def parameters(self) -> PreviewParameters:
+        """Parameters of the method, SI."""
+        return PreviewParameters(
+            rate=radians(self.align_rate_deg_s),
+            smoothing=self.align_smoothing_s,
+            force_unit=self.force_unit_m_s2,
+            rate_unit=radians(self.rate_unit_deg_s),
+            planning_rate=self.planning_rate_hz,
+        )
+
+
 METHODS: dict[str, type[_Method]] = {
     "attitude": AttitudeTable,
     "blend": BlendTable,
     "force": ForceTable,
     "classical": ClassicalTable,
 }
+"""The methods that know only the past, so that they fly anywhere."""
+
+ALL_METHODS: dict[str, type[Table]] = {**METHODS, "preview": PreviewTable}
 DEFAULT_METHOD = "blend"
 
 
@@ -163,6 +212,7 @@ CueingTable: TypeAlias = Annotated[
     Annotated[AttitudeTable, Tag("attitude")]
     | Annotated[BlendTable, Tag("blend")]
     | Annotated[ForceTable, Tag("force")]
-    | Annotated[ClassicalTable, Tag("classical")],
+    | Annotated[ClassicalTable, Tag("classical")]
+    | Annotated[PreviewTable, Tag("preview")],
     Discriminator(_method),
 ]

@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 from pydantic import ValidationError
 
 from ..errors import Mistake, ScenarioError
-from .cueing import DEFAULT_METHOD, METHODS
+from .cueing import ALL_METHODS, DEFAULT_METHOD
 from .mistakes import SET, FileNamer, Key, dotted, mistakes_of, nearest
 from .overrides import Overrides, apply_overrides, parse_overrides
 from .platform import Platform, presets
@@ -22,18 +22,20 @@ T = TypeVar("T", bound=Table)
 _CHOICE = ("preset", "file")
 
 
-def load_scenario(path: Path, overrides: Sequence[str] = ()) -> Scenario:
+def load_scenario(path: Path, overrides: Sequence[str] = (), *, trust_models: bool = False) -> Scenario:
     """Read a scenario file and its platform, with `KEY=VALUE` overrides put on top.
 
     Keys below `platform.` other than `preset` and `file` are those of the platform file, as in
     `platform.wheel_limits.speed_rad_s=20`.
     A value is TOML, or else a bare string. Raises ScenarioError with every mistake of both files and of the overrides.
+
+    trust_models: whether a script beside the scenario may be flown; it can be read and cued anew in any case.
     """
     settings = parse_overrides(overrides)
-    return resolve(read_toml(path), settings, path)
+    return resolve(read_toml(path), settings, path, trust_models=trust_models)
 
 
-def resolve(data: dict[str, Any], settings: Overrides, path: Path) -> Scenario:
+def resolve(data: dict[str, Any], settings: Overrides, path: Path, *, trust_models: bool = False) -> Scenario:
     """As `load_scenario` for the table that `path` holds, which is changed, and overrides read already."""
     deep = {
         key[1:]: value for key, value in settings.items() if key[0] == "platform" and len(key) > 1 and key[1] not in _CHOICE
@@ -48,7 +50,7 @@ def resolve(data: dict[str, Any], settings: Overrides, path: Path) -> Scenario:
     mistakes += found
     if mistakes or file is None or platform is None:
         raise ScenarioError(mistakes)
-    return Scenario(file, platform, path.parent)
+    return Scenario(file, platform, path.parent, trust_models)
 
 
 def load_platform(name_or_path: str) -> Platform:
@@ -107,8 +109,8 @@ def _broken_rules(data: dict[str, Any], name_file: FileNamer) -> list[Mistake]:
 def _leave_method(data: dict[str, Any], method: Any) -> None:
     """When another method is set from the command line, leave out what only the file's own method knows."""
     table = data.get("cueing")
-    if not isinstance(table, dict) or not isinstance(method, str) or method not in METHODS:
+    if not isinstance(table, dict) or not isinstance(method, str) or method not in ALL_METHODS:
         return
-    old = METHODS.get(str(table.get("method", DEFAULT_METHOD)))
-    for key in [key for key in table if old and key in old.model_fields and key not in METHODS[method].model_fields]:
+    old = ALL_METHODS.get(str(table.get("method", DEFAULT_METHOD)))
+    for key in [key for key in table if old and key in old.model_fields and key not in ALL_METHODS[method].model_fields]:
         del table[key]

@@ -9,11 +9,11 @@ import tomli_w
 from pydantic import BeforeValidator
 
 from ..recording.recorder import MAX_CHUNK_TICKS
-from .cueing import BlendTable, CueingTable
+from .cueing import BlendTable, CueingTable, PreviewTable
 from .mistakes import nearest
 from .platform import NAME, Platform, presets
 from .table import Table, number, object_to, refuse, text, whole
-from .vehicle import Flight, VehicleTable
+from .vehicle import Flight, LiveFlight, VehicleTable
 
 # The other topics are what the run is evaluated from.
 DISPENSABLE_TOPICS = ("/tf",)
@@ -88,8 +88,18 @@ class Scenario:
 
     @property
     def flight(self) -> Flight:
-        """What the vehicle flies."""
+        """What the vehicle flies without a clock. Raises InputError for a source that flies only live."""
         return self.file.vehicle.flight(self.file.duration_s, self.folder)
+
+    @property
+    def needs_whole_flight(self) -> bool:
+        """Whether the cueing method has to know every state of the flight before the first cue, so that it cannot fly live."""
+        return isinstance(self.file.cueing, PreviewTable)
+
+    @property
+    def live_flight(self) -> LiveFlight:
+        """What the vehicle flies in real time, whatever its source."""
+        return self.file.vehicle.live_flight(self.file.duration_s, self.folder)
 
     def scenario_toml(self) -> str:
         """The scenario with all defaults written out; its platform is `platform.toml`, and a user's script lies beside it."""

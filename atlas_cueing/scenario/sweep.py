@@ -85,11 +85,12 @@ def _is_platform(path: Path) -> bool:
     return "sphere" in data and "vehicle" not in data
 
 
-def load_variants(path: Path, overrides: Sequence[str] = ()) -> list[Variant]:
+def load_variants(path: Path, overrides: Sequence[str] = (), *, trust_models: bool = False) -> list[Variant]:
     """Every run that a scenario file stands for: one, or as many as its sweep has.
 
     `overrides` are as for `load_scenario`; one of a swept key takes the key out of the sweep, and one below `sweep.` changes
-    the sweep itself. Raises ScenarioError with every mistake of the sweep, or else of the runs, each once.
+    the sweep itself; `trust_models` is as there. Raises ScenarioError with every mistake of the sweep, or else of the runs, each
+    once.
     """
     settings = parse_overrides(overrides)
     of_sweep = {key: value for key, value in settings.items() if key[0] == _SWEEP}
@@ -100,7 +101,7 @@ def load_variants(path: Path, overrides: Sequence[str] = ()) -> list[Variant]:
         raise ScenarioError(mistakes)
     table = data.pop(_SWEEP, None)
     if table is None:
-        return [Variant(resolve(data, others, path), {})]
+        return [Variant(resolve(data, others, path, trust_models=trust_models), {})]
     points = _points(table, others, FileNamer(str(path), of_sweep))
     return _resolved(data, others, points, path)
 

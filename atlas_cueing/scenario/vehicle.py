@@ -1,46 +1,65 @@
-"""The `[vehicle]` table: a JSBSim script, an aircraft with initial conditions and timed inputs, or test signals."""
+"""The `[vehicle]` table: a JSBSim script, an aircraft with initial conditions and timed inputs, or test signals.
+
+Two sources fly only live: `flightgear`, a simulator that sends packets to a port here, and `recording`, a log played back.
+"""
 
 from collections.abc import Collection
+from ipaddress import AddressValueError, IPv4Address
 from math import radians
 from pathlib import Path
 from typing import Annotated, Any, TypeAlias
 
-from pydantic import BeforeValidator, Field, ValidationInfo, model_validator
+from pydantic import BeforeValidator, Field, ValidationInfo
 
 from ..errors import InputError
 from ..vehicles import (
     AircraftFlight,
+    FlightgearFlight,
     InitialConditions,
     ScriptFlight,
-    Signal,
     SignalFlight,
     TimedInput,
     own_aircraft,
     own_scripts,
 )
-from ..vehicles.signal import DEFAULT_RAMP, FORCE_AXES, RATE_AXES, SHAPES, Axis, Shape
+from ..vehicles.flightgear import DEFAULT_PORT, DEFAULT_RATE_HZ, LOOPBACK
 from .mistakes import Key, nearest
-from .table import Finite, Table, number, object_to, refuse, text
+from .recorded import RecordedFlight
+from .signal import SignalTable, Time, signal_rules
+from .table import Finite, Table, number, refuse, text, whole
 
 Flight: TypeAlias = ScriptFlight | AircraftFlight | SignalFlight
-Time: TypeAlias = Annotated[float, number(0.0, 86400.0)]  # s; a day
-Frequency: TypeAlias = Annotated[float, number(0.001, 1000.0)]
+LiveFlight: TypeAlias = Flight | FlightgearFlight | RecordedFlight
 
 _LONGEST_PROPERTY = 200  # characters; the longest of JSBSim's own has 70
+_LONGEST_PATH = 4096  # characters
 
-
-_SIGNAL = "signal"
-_SOURCES = ("jsbsim", _SIGNAL)
-_SIGNAL_KEYS = ("signal", "force_follows_attitude")
-_FREQUENCIES = {"sine": ("frequency_rad_s",), "sweep": ("frequency_rad_s", "end_frequency_rad_s")}  # keys that a shape needs
+_JSBSIM, _SIGNAL, _FLIGHTGEAR, _RECORDING = "jsbsim", "signal", "flightgear", "recording"
+_KEYS = {  # of each source, and of no other; those of two sources are in both
+    _JSBSIM: ("script", "aircraft", "initial", "input", "rate_hz"),
+    _SIGNAL: ("signal", "force_follows_attitude", "rate_hz"),
+    _FLIGHTGEAR: ("host", "port", "rate_hz"),
+    _RECORDING: ("log",),
+}
+_ONLY_LIVE = {
+    _FLIGHTGEAR: "source = 'flightgear' flies only live: atlas-cueing live FILE",
+    _RECORDING: "source = 'recording' flies only live: atlas-cueing live FILE; without a clock: atlas-cueing recue LOG",
+}
 
 
 def _known_source(value: Any) -> str:
-    if value in ("flightgear", "recording"):
-        raise refuse("only 'jsbsim' and 'signal' fly in batch runs")
-    if value not in _SOURCES:
-        raise refuse("'jsbsim', 'signal'")
-    return str(value)
+    if not isinstance(value, str) or value not in _KEYS:
+        raise refuse(", ".join(repr(source) for source in _KEYS))
+    return value
+
+
+def _loopback(value: Any) -> str:
+    try:
+        if isinstance(value, str) and IPv4Address(value).is_loopback:
+            return value
+    except AddressValueError:
+        pass
+    raise refuse(f"{LOOPBACK!r} or another loopback address; packets from other machines are not taken yet")
 
 
 def _known(kind: str, names: Collection[str], value: Any) -> str:
@@ -112,53 +131,6 @@ class InputTable(Table):
         return TimedInput(self.time_s, self.property, self.value, self.ramp_s)
 
 
-def _one_of(names: Collection[str]) -> BeforeValidator:
-    """One of a few words."""
-
-    def check(value: Any) -> str:
-        if not isinstance(value, str) or value not in names:
-            raise refuse(", ".join(repr(name) for name in names))
-        return value
-
-    return BeforeValidator(check)
-
-
-class SignalTable(Table):
-    """One `[[vehicle.signal]]`: see vehicles.Signal. Which keys an axis and a shape need, `vehicle_rules` checks."""
-
-    axis: Annotated[Axis, _one_of(RATE_AXES + FORCE_AXES)]
-    shape: Annotated[Shape, _one_of(SHAPES)]
-    amplitude_deg_s: Annotated[float, number(-2500.0, 2500.0)] | None = None
-    amplitude_m_s2: Annotated[float, number(-400.0, 400.0)] | None = None
-    time_s: Time = 0.0
-    duration_s: Annotated[float, number(0.0, 86400.0, above=True)]
-    ramp_s: Annotated[float, number(0.0, 86400.0, above=True)] = DEFAULT_RAMP
-    frequency_rad_s: Frequency | None = None
-    end_frequency_rad_s: Frequency | None = None
-
-    @model_validator(mode="after")
-    def _fits(self) -> "SignalTable":
-        if all(getattr(self, key) is not None for key in _FREQUENCIES.get(self.shape, ())):
-            try:
-                self.signal().check()
-            except InputError as error:
-                raise object_to(str(error)) from None
-        return self
-
-    def signal(self) -> Signal:
-        """The same in SI."""
-        return Signal(
-            axis=self.axis,
-            shape=self.shape,
-            amplitude=radians(self.amplitude_deg_s or 0.0) if self.axis in RATE_AXES else self.amplitude_m_s2 or 0.0,
-            time=self.time_s,
-            duration=self.duration_s,
-            ramp=self.ramp_s,
-            frequency=self.frequency_rad_s or 0.0,
-            end_frequency=self.end_frequency_rad_s or 0.0,
-        )
-
-
 def _tables(name: str) -> BeforeValidator:
     """A list of tables."""
 
@@ -171,9 +143,13 @@ def _tables(name: str) -> BeforeValidator:
 
 
 class VehicleTable(Table):
-    """`[vehicle]`: exactly one of `script`, `aircraft` and, with its own source, `signal`, which `vehicle_rules` checks."""
+    """`[vehicle]`: a source and its own keys, which `vehicle_rules` checks: exactly one of `script` and `aircraft`, ...
 
-    source: Annotated[str, BeforeValidator(_known_source)] = "jsbsim"
+    host, port: where packets of a `flightgear` source come in; rate_hz: how many a second, nominally.
+    log: the log (MCAP) that a `recording` plays, from the scenario's folder.
+    """
+
+    source: Annotated[str, BeforeValidator(_known_source)] = _JSBSIM
     script: Annotated[str, BeforeValidator(_known_script)] | None = None
     aircraft: Annotated[str, BeforeValidator(_known_aircraft)] | None = None
     rate_hz: Annotated[float, number(10.0, 1000.0)] | None = None
@@ -181,13 +157,21 @@ class VehicleTable(Table):
     input: Annotated[tuple[InputTable, ...], _tables("input")] = Field(default=())
     signal: Annotated[tuple[SignalTable, ...], _tables("signal")] | None = None
     force_follows_attitude: bool | None = None
+    host: Annotated[str, BeforeValidator(_loopback)] | None = None
+    port: Annotated[int, whole(1, 65535)] | None = None
+    log: Annotated[str, text("path of a log", lambda path: path.isprintable() and 0 < len(path) <= _LONGEST_PATH)] | None = None
 
     def user_script(self, folder: Path) -> Path | None:
         """The script file beside the scenario; None for one of JSBSim's own and for an aircraft."""
         return script_beside(self.script, folder) if self.script is not None and self.script not in own_scripts() else None
 
     def flight(self, duration: float | None, folder: Path) -> Flight:
-        """What to fly, for `duration` s; a user's script is looked for in `folder`."""
+        """What to fly without a clock, for `duration` s; a user's script is looked for in `folder`.
+
+        Raises InputError for a source that flies only live.
+        """
+        if self.source in _ONLY_LIVE:
+            raise InputError(_ONLY_LIVE[self.source])
         if self.source == _SIGNAL:
             signals = tuple(table.signal() for table in self.signal or ())
             return SignalFlight(signals, self.rate_hz, duration, self.force_follows_attitude is not False)
@@ -198,17 +182,42 @@ class VehicleTable(Table):
         inputs = tuple(event.event() for event in self.input)
         return AircraftFlight(self.aircraft, self.initial.conditions(), inputs, self.rate_hz, duration)
 
+    def live_flight(self, duration: float | None, folder: Path) -> LiveFlight:
+        """What to fly in real time; `folder` is also where a log is looked for."""
+        if self.source == _FLIGHTGEAR:
+            return FlightgearFlight(self.host or LOOPBACK, self.port or DEFAULT_PORT, self.rate_hz or DEFAULT_RATE_HZ)
+        if self.source == _RECORDING:
+            assert self.log is not None  # noqa: S101 - vehicle_rules
+            return RecordedFlight(folder / self.log)
+        return self.flight(duration, folder)
+
 
 def vehicle_rules(data: dict[str, Any]) -> list[tuple[Key, str]]:
     """What goes with what in a scenario's tables: (key, what is allowed) for each mistake."""
     vehicle = data.get("vehicle")
     if not isinstance(vehicle, dict):
         return []
-    if vehicle.get("source") == _SIGNAL:
-        return _signal_flight_rules(vehicle)
-    only = f"only with source = {_SIGNAL!r}"
-    strangers: list[tuple[Key, str]] = [(("vehicle", key), only) for key in _SIGNAL_KEYS if key in vehicle]
-    return strangers + _jsbsim_rules(data, vehicle)
+    source = vehicle.get("source", _JSBSIM)
+    if not isinstance(source, str) or source not in _KEYS:
+        source = _JSBSIM  # a mistake of its own
+    mistakes = _strangers(vehicle, source)
+    if source == _JSBSIM:
+        mistakes += _jsbsim_rules(data, vehicle)
+    elif source == _SIGNAL:
+        mistakes += _signal_flight_rules(vehicle)
+    elif source == _RECORDING and "log" not in vehicle:
+        mistakes.append((("vehicle", "log"), "missing, the log that is played"))
+    return mistakes
+
+
+def _strangers(vehicle: dict[str, Any], source: str) -> list[tuple[Key, str]]:
+    """Keys that belong to other sources: named are those of a source of one's own, or else the source itself."""
+    mistakes: list[tuple[Key, str]] = []
+    for key in [key for key in dict.fromkeys(sum(_KEYS.values(), ())) if key in vehicle and key not in _KEYS[source]]:
+        owners = [owner for owner, keys in _KEYS.items() if key in keys]
+        only = source == _JSBSIM and len(owners) == 1
+        mistakes.append((("vehicle", key), f"only with source = {owners[0]!r}" if only else f"not with source = {source!r}"))
+    return mistakes
 
 
 def _jsbsim_rules(data: dict[str, Any], vehicle: dict[str, Any]) -> list[tuple[Key, str]]:
@@ -225,30 +234,12 @@ def _jsbsim_rules(data: dict[str, Any], vehicle: dict[str, Any]) -> list[tuple[K
 
 
 def _signal_flight_rules(vehicle: dict[str, Any]) -> list[tuple[Key, str]]:
-    mistakes: list[tuple[Key, str]] = [
-        (("vehicle", key), f"not with source = {_SIGNAL!r}")
-        for key in ("script", "aircraft", "initial", "input")
-        if key in vehicle
-    ]
+    mistakes: list[tuple[Key, str]] = []
     signals = vehicle.get("signal", [])
     if signals == []:
         mistakes.append((("vehicle", "signal"), "missing, at least one [[vehicle.signal]]"))
     each = enumerate(signals) if isinstance(signals, list) else ()
     for i, signal in each:
         if isinstance(signal, dict):
-            mistakes += [(("vehicle", "signal", i, key), allowed) for key, allowed in _signal_rules(signal)]
+            mistakes += [(("vehicle", "signal", i, key), allowed) for key, allowed in signal_rules(signal)]
     return mistakes
-
-
-def _signal_rules(signal: dict[str, Any]) -> list[tuple[str, str]]:
-    """Missing and superfluous keys of one signal; none for an axis or shape that is a mistake itself."""
-    axis, shape = signal.get("axis"), signal.get("shape")
-    rules: list[tuple[str, bool, str]] = []  # key, whether it belongs here, and with what
-    if axis in RATE_AXES + FORCE_AXES:
-        rules.append(("amplitude_deg_s", axis in RATE_AXES, f"axis = {axis!r}"))
-        rules.append(("amplitude_m_s2", axis in FORCE_AXES, f"axis = {axis!r}"))
-    if shape in SHAPES:
-        needed = _FREQUENCIES.get(str(shape), ())
-        rules += [(key, key in needed, f"shape = {shape!r}") for key in _FREQUENCIES["sweep"]]
-    wrong = [(key, belongs, owner) for key, belongs, owner in rules if (key in signal) != belongs]
-    return [(key, f"missing, needed with {owner}" if belongs else f"not with {owner}") for key, belongs, owner in wrong]

@@ -3,17 +3,21 @@
 from .felt import STANDARD_GRAVITY, direction_error, felt
 from .limits import StageLimits, WheelLimits
 from .seams import Sink, Vehicle, WheelDrive
-from .states import Cue, Motion, Tick, VehicleState, WheelSpeeds
-from .topics import TOPICS, Topic, tick_row
+from .states import Cue, Motion, Tick, Timing, VehicleState, WheelSpeeds
+from .topics import LIVE_STATES, LIVE_TOPICS, TIMING, TOPICS, Topic, live_row, tick_row
 
 __all__ = [
+    "LIVE_STATES",
+    "LIVE_TOPICS",
     "STANDARD_GRAVITY",
+    "TIMING",
     "TOPICS",
     "Cue",
     "Motion",
     "Sink",
     "StageLimits",
     "Tick",
+    "Timing",
     "Topic",
     "Vehicle",
     "VehicleState",
@@ -22,5 +26,6 @@ __all__ = [
     "WheelSpeeds",
     "direction_error",
     "felt",
+    "live_row",
     "tick_row",
 ]

@@ -66,3 +66,25 @@ class Tick:
     cue: Cue
     motion: Motion
     wheels: WheelSpeeds
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """How one tick of the real-time loop went; all in s but the last two.
+
+    time: as in the other parts of the tick.
+    elapsed: real time from the start of the loop to the tick's deadline.
+    lateness: from the deadline to the beginning of the tick.
+    cost: from there to the set point being sent.
+    input_age: of the newest good sample of the vehicle.
+    missed: deadlines missed up to now.
+    state: place in `topics.LIVE_STATES`.
+    """
+
+    time: float
+    elapsed: float
+    lateness: float
+    cost: float
+    input_age: float
+    missed: float
+    state: float

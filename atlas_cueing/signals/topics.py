@@ -7,7 +7,7 @@ topics in the order of the table; `/felt` is derived from them.
 
 from dataclasses import dataclass
 
-from .states import Tick
+from .states import Tick, Timing
 
 _VECTORS = {"w": "rad_s", "f": "m_s2", "alpha": "rad_s2", "p": "m", "v": "m_s", "a": "m_s2"}
 
@@ -38,6 +38,20 @@ TOPICS = (
 )
 
 
+LIVE_STATES = ("parked", "engaging", "running", "holding", "parking", "fault_stopping", "stopped")
+"""States of the real-time loop; /timing has their place in this list, /status their name."""
+
+TIMING = Topic(
+    "/timing",
+    "atlas.Timing",
+    ("time_s", "elapsed_s", "lateness_s", "cost_s", "input_age_s", "missed_deadlines", "state"),
+)
+"""Live runs only, once a tick: the numbers of `states.Timing`."""
+
+LIVE_TOPICS = (*TOPICS[:-1], TIMING, TOPICS[-1])
+"""What a live log holds; as in TOPICS, all but the last come from the loop."""
+
+
 def tick_row(tick: Tick) -> tuple[float, ...]:
     """All numbers of a tick in the order of the first four topics of `TOPICS`."""
     v, c, m, u = tick.vehicle, tick.cue, tick.motion, tick.wheels
@@ -47,3 +61,9 @@ def tick_row(tick: Tick) -> tuple[float, ...]:
         *(m.time, *m.q_WS, *m.w_WS_W, *m.alpha_WS_W, *m.p_WS_W, *m.v_WS_W, *m.a_WS_W, *m.limited),
         *(u.time, *u.speed, *u.acceleration),
     )
+
+
+def live_row(tick: Tick, timing: Timing) -> tuple[float, ...]:
+    """All numbers of a tick of a live run in the order of LIVE_TOPICS, without /felt."""
+    t = timing
+    return (*tick_row(tick), t.time, t.elapsed, t.lateness, t.cost, t.input_age, t.missed, t.state)

@@ -15,7 +15,7 @@ _ABSURD_RATE = 1e3  # rad/s; nobody asks a cabin for more, and the arithmetic st
 class Smoothing:
     """Turns cues into motion inside the limits of wheels and stage, at a fixed tick.
 
-    It starts at rest in the first cue's orientation with the stage in its centre. Whatever the cue is, every motion keeps
+    It starts at rest in the first cue's orientation and position. Whatever the cue is, every motion keeps
     every limit; a cue that is no cue (not finite, no rotation, absurd) is answered with the certified stop.
     Motion times are its own: start + n dt.
     """
@@ -49,6 +49,7 @@ class Smoothing:
             raise PlanningError(f"the first cue must be an orientation; got {cue}")
         self._start = cue.time
         self._sphere.start(cue)
+        self._stage.start(cue)
         return self._motion(cue.time, True, True)
 
     def _turn(self, cue: Cue) -> bool:

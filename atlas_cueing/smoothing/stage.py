@@ -35,6 +35,10 @@ class RailAxis:
         self._braking, self._braking_jerk = _BRAKING_SHARE * self._axis.acceleration, _BRAKING_SHARE * self._axis.jerk
         self.p = self.v = self.a = 0.0
 
+    def start(self, p: float) -> None:
+        """Begin at rest in p (m), or where the travel ends."""
+        self.p = min(max(p, -self.travel), self.travel) if isfinite(p) else 0.0
+
     def step(self, p: float, v: float, a: float) -> bool:
         """Follow a cue for one tick; whether it was given. Any input is safe."""
         to_go = p - (self.p + 0.5 * self._axis.dt * (self.v + v))
@@ -76,6 +80,11 @@ class StageSmoothing:
         """Start at rest in the centre; dt in s."""
         each = zip(limits.travel, limits.speed, limits.acceleration, limits.jerk, strict=True)
         self._axes = [RailAxis(dt, *limit) for limit in each]
+
+    def start(self, cue: Cue) -> None:
+        """Begin at rest in the cue's position, as far as it lies in the travel."""
+        for axis, p in zip(self._axes, cue.p_WS_W, strict=True):
+            axis.start(p)
 
     def step(self, cue: Cue) -> bool:
         """Follow the cue for one tick; whether all of it was given. Any cue is safe."""

@@ -1,11 +1,14 @@
 """Sources of vehicle states; the only place that knows feet, pounds and knots.
 
 A `ScriptFlight` or an `AircraftFlight` says what to fly and `JsbsimVehicle` flies it, as a `signals.Vehicle`; a `SignalFlight`
-is flown by a `SignalVehicle`, and a `RecordedVehicle` plays recorded states back.
+is flown by a `SignalVehicle`, and a `RecordedVehicle` plays recorded states back. `flightgear` reads the packets of a simulator
+elsewhere.
 """
 
 from .bounds import Bounds
+from .flightgear import FlightgearFlight
 from .flights import AircraftFlight, InitialConditions, ScriptFlight, TimedInput
+from .flown_ahead import FlownAhead
 from .jsbsim_vehicle import JsbsimVehicle
 from .library import own_aircraft, own_scripts, suggestion
 from .recorded import RecordedVehicle
@@ -14,6 +17,8 @@ from .signal import Signal, SignalFlight, SignalVehicle
 __all__ = [
     "AircraftFlight",
     "Bounds",
+    "FlightgearFlight",
+    "FlownAhead",
     "InitialConditions",
     "JsbsimVehicle",
     "RecordedVehicle",

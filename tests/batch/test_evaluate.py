@@ -1,8 +1,7 @@
 from pathlib import Path
 
-from atlas_cueing.batch.evaluate import evaluate
 from atlas_cueing.batch.run import run_scenario
-from atlas_cueing.scenario import load_platform
+from atlas_cueing.scenario import evaluate, load_platform
 
 from .conftest import Load
 

@@ -5,11 +5,13 @@ from collections.abc import Callable
 from math import radians
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from atlas_cueing.batch import RunResult, run_scenario
 from atlas_cueing.batch import run as run_module
 from atlas_cueing.errors import InputError, OutputError, SlipConditionError, VehicleError
+from atlas_cueing.evaluation.cost import combined
 from atlas_cueing.recording import McapRecorder, read_log
 from atlas_cueing.rotation import IDENTITY, Quat, Vec3, exp
 from atlas_cueing.scenario import Scenario, load_scenario
@@ -243,3 +245,36 @@ def test_nothing_is_written_for_bad_input(load: Load, tmp_path: Path) -> None:
     refuse_to_fly(load("vehicle.script=unitconversions"), tmp_path, InputError)
     with pytest.raises(OutputError):
         run_scenario(load(), tmp_path / "missing" / "log.mcap")
+
+
+def test_preview_knows_what_the_vehicle_will_do(load: Load, tmp_path: Path) -> None:
+    """The vehicle is the one that any method flies; only the platform knows better."""
+    plain, planned = (run_scenario(load(f"cueing.method={m}"), tmp_path / f"{m}.mcap") for m in ("blend", "preview"))
+    assert planned.clean
+    assert planned.ticks == plain.ticks
+    one, other = (read_log(result.log) for result in (plain, planned))
+    assert np.array_equal(one.tables["/vehicle"].values, other.tables["/vehicle"].values)
+    assert one.statuses == other.statuses
+    assert other.metadata["method"] == "preview"
+    force, rate = (
+        [result.evaluation.metrics[name] for result in (planned, plain)] for name in ("force_rms_m_s2", "rate_rms_rad_s")
+    )
+    assert combined(force[0], rate[0])["cost"] < combined(force[1], rate[1])["cost"]
+
+
+def test_a_flight_that_fails_is_planned_up_to_there(load: Load, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    vehicle = Double(event=raising(VehicleError(0.5, "fell apart"), at=50))
+    monkeypatch.setattr(run_module, "JsbsimVehicle", lambda _: vehicle)
+    result = run_scenario(load("cueing.method=preview"), tmp_path / "log.mcap")
+    assert (result.result, result.ticks) == ("vehicle_failed", 50)
+    assert "fell apart" in result.reason
+    assert states(result.log)[-1] == (0.49, "vehicle_failed")
+
+
+def test_a_flight_without_a_plan_writes_nothing(load: Load, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    vehicle = Double()
+    vehicle.rate = (1e7, 0.0, 0.0)
+    monkeypatch.setattr(run_module, "JsbsimVehicle", lambda _: vehicle)
+    with pytest.raises(InputError, match="no plan"):
+        run_scenario(load("cueing.method=preview"), tmp_path / "log.mcap")
+    assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]

@@ -15,6 +15,7 @@ from atlas_cueing.recording.container import Container
 from atlas_cueing.recording.schemas import schema_of
 from atlas_cueing.recording.wire import flat_template
 from atlas_cueing.signals import TOPICS
+from atlas_cueing.viewer.play import PlayPage
 
 from .conftest import Command
 
@@ -84,6 +85,21 @@ def test_bad_usage(command: Command, arguments: list[str], message: str) -> None
     assert (ended.status, ended.out) == (2, "")
     assert message in ended.err
     assert len(ended.err.splitlines()) == 1
+
+
+def test_a_view_is_served_until_ctrl_c(command: Command, log: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    shown = []
+
+    def interrupted(_: PlayPage, elapsed: float) -> None:
+        shown.append(elapsed)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(PlayPage, "refresh", interrupted)
+    ended = command("review", log.name, "--view", "--port", "0")
+    assert ended.status == 0
+    assert re.fullmatch(r"view: http://127\.0\.0\.1:\d+ \(end with Ctrl-C\)\n", ended.err)
+    assert re.match(r"verdict +clean", ended.out)
+    assert len(shown) == 1
 
 
 MAGIC = b"\x89MCAP0\r\n"

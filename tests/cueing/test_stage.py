@@ -1,86 +1,29 @@
 """The stage: onsets inside the travel for any demand, a return nobody feels, and the rider's head taken into account."""
 
+from dataclasses import replace
 from math import sin
 
 import numpy as np
 import pytest
 
-from atlas_cueing.cueing import CLASSICAL_STAGE, StageParameters
-from atlas_cueing.cueing.stage import OnsetFilter, StageCueing, demand_bound
+from atlas_cueing.cueing import StageParameters
+from atlas_cueing.cueing.horizon import HorizonAxis
+from atlas_cueing.cueing.onset import OnsetFilter
+from atlas_cueing.cueing.stage import StageCueing
 from atlas_cueing.rotation import IDENTITY, ZERO, Vec3, conjugate, exp, flip, rotate, scale
 from atlas_cueing.signals import STANDARD_GRAVITY, StageLimits
 
 LIMITS = StageLimits((1.0, 1.0, 0.75), (1.5, 1.5, 1.2), (6.0, 6.0, 5.0), (60.0, 60.0, 50.0))
 HUGE = StageLimits((1e6,) * 3, (1e6,) * 3, (1e6,) * 3, (1e9,) * 3)
 DTS = [1.0 / 1000.0, 1.0 / 120.0, 1.0 / 20.0]
-CHOICES = [(1.5, 0.2, 5.0), (0.8, 0.1, 2.0), (4.0, 0.5, 5.0)]  # onset, recentre, bandwidth
+ONSET = StageParameters(onset=(2.0, 2.0, 2.0), horizon=None)
+PLANNERS = pytest.mark.parametrize("planned", [ONSET, StageParameters()], ids=["onset", "horizon"])
 
 
-def one_axis(choice: tuple[float, float, float]) -> StageParameters:
-    """The same parameters on every axis."""
-    onset, recentre, bandwidth = choice
-    return StageParameters(onset=(onset,) * 3, recentre=(recentre,) * 3, bandwidth=bandwidth)
-
-
-def impulse(dt: float, choice: tuple[float, float, float], seconds: float) -> np.ndarray:
-    """p, v, a after a demand of one for one tick, a row a tick, in the linear range."""
-    onset = OnsetFilter(dt, *choice, 1e9)
-    onset.step(0.0)
-    return np.array([onset.step(float(i == 0)) for i in range(int(seconds / dt))])
-
-
-@pytest.mark.parametrize(("dt", "choice"), [(1e-3, CHOICES[2]), *((dt, each) for dt in DTS[1:] for each in CHOICES)])
-@pytest.mark.parametrize("limit", [(1.0, 1.5, 6.0), (0.1, 10.0, 10.0), (10.0, 0.2, 10.0), (10.0, 10.0, 0.3)])
-def test_the_worst_demand_stays_inside(dt: float, choice: tuple[float, float, float], limit: Vec3) -> None:
-    """Full demand whose sign is that of the impulse response run backwards: there is no worse for p, for v or for a."""
-    response = impulse(dt, choice, 4.0 / choice[1])
-    limits = StageLimits(*((x, x, x) for x in limit), (1e3,) * 3)
-    used = []
-    for which in range(3):
-        cueing = StageCueing(dt, one_axis(choice), limits, ZERO)
-        ask(cueing, 0.0)
-        for sign in np.sign(response[::-1, which]):
-            state = ask(cueing, 1e12 * float(sign))
-            assert np.all(np.abs(state) <= limit)
-        used.append(abs(state[which]) / limit[which])
-    assert 0.3 < max(used) <= 1.0, (
-        "one of the limits should be used by its own worst demand; nearly all needs a lasting one before"
-    )
-
-
-def ask(cueing: StageCueing, demand: float) -> Vec3:
-    """p, v, a along x after a tick with a demand along x alone."""
-    p, v, a = cueing.step(IDENTITY, ZERO, (demand, 0.0, -STANDARD_GRAVITY))
-    return p[0], v[0], a[0]
-
-
-@pytest.mark.parametrize(
-    "choice",
-    [(0.1, 5.0, 5.0), (0.8, 10.0, 5.0), (0.3, 1.0, 5.0), (1.5, 0.2, 0.05), (10.0, 0.0, 5.0), (1.0, 0.0, 5.0), (0.2, 0.2, 0.5)],
-    ids=str,
-)
-def test_the_travel_holds_whichever_pole_is_the_slowest(choice: tuple[float, float, float]) -> None:
-    """A push for ever, then back, from rest in the centre: of the onset, of the return, of the low-pass on the demand."""
-    dt, cueing = 1.0 / 50.0, StageCueing(1.0 / 50.0, one_axis(choice), LIMITS, ZERO)
-    ask(cueing, 0.0)
-    path = [ask(cueing, sign * 1e6) for sign in (1.0, -1.0) for _ in range(int(60.0 / dt))]
-    assert np.all(np.max(np.abs(path), axis=0) <= (1.0, 1.5, 6.0))
-
-
-@pytest.mark.parametrize("start", [1e6, 1.0, -50.0])
-@pytest.mark.parametrize("parameters", [one_axis((1.5, 0.2, 5.0)), one_axis((1.5, 0.0, 5.0)), CLASSICAL_STAGE], ids=str)
-def test_the_travel_holds_whatever_demand_was_there_at_the_start(parameters: StageParameters, start: float) -> None:
-    """It counts as lasting; without a return to the centre it does so for ever, and the opposite demand is twice as far off."""
-    dt, cueing = 1.0 / 50.0, StageCueing(1.0 / 50.0, parameters, LIMITS, ZERO)
-    ask(cueing, start)
-    path = [ask(cueing, sign * start * 1e6) for sign in (-1.0, 1.0, -1.0) for _ in range(int(20.0 / dt))]
-    assert np.max(np.abs(path), axis=0)[0] <= min(1.0, parameters.travel[0])
-    assert np.all(np.max(np.abs(path), axis=0)[1:] <= (1.5, 6.0))
-
-
-def test_no_more_than_the_parameters_travel_is_used_on_each_axis() -> None:
+@PLANNERS
+def test_no_more_than_the_parameters_travel_is_used_on_each_axis(planned: StageParameters) -> None:
     """And no less: the cap is used up to its share, axis by axis, and the platform's own travel where that is smaller."""
-    parameters = StageParameters(travel=(0.2, 9.0, 0.4))
+    parameters = replace(planned, travel=(0.2, 9.0, 0.4))
     cueing, most = StageCueing(0.01, parameters, LIMITS, ZERO), np.zeros(3)
     cueing.step(IDENTITY, ZERO, (0.0, 0.0, -STANDARD_GRAVITY))
     for i in range(6000):
@@ -90,39 +33,11 @@ def test_no_more_than_the_parameters_travel_is_used_on_each_axis() -> None:
     assert np.all(most > (0.08, 0.3, 0.15))
 
 
-def test_onset_and_return_are_the_axis_s_own() -> None:
-    """Three axes, three filters: each is that of its own numbers, with the others' changed."""
-    whole = StageParameters(onset=(1.0, 2.0, 3.0), recentre=(0.3, 0.1, 0.0))
-    states = []
-    for parameters in (whole, one_axis((1.0, 0.3, 5.0)), one_axis((2.0, 0.1, 5.0)), one_axis((3.0, 0.0, 5.0))):
-        cueing = StageCueing(0.01, parameters, HUGE, ZERO)
-        cueing.step(IDENTITY, ZERO, (0.0, 0.0, -STANDARD_GRAVITY))
-        states.append([cueing.step(IDENTITY, ZERO, (0.1, -0.1, -STANDARD_GRAVITY - 0.1)) for _ in range(300)][-1])
-    mixed, *single = states
-    for axis in range(3):
-        assert [x[axis] for x in mixed] == pytest.approx([x[axis] for x in single[axis]], abs=1e-12)
-    assert len({round(abs(single[axis][0][axis]), 6) for axis in range(3)}) == 3
-
-
-@pytest.mark.parametrize("onset", [0.5, 1.5, 4.0])
-def test_the_bound_is_that_of_the_filter_s_l1_norms(onset: float) -> None:
-    """Norms of the impulse responses of 1, s and s^2 over (s + onset)^2, summed finely, under twice the bound."""
-    t = np.linspace(0.0, 40.0 / onset, 400_001)
-    decay, dt = np.exp(-onset * t), t[1]
-    norms = [
-        float(np.sum(np.abs(kernel)) * dt)
-        for kernel in (t * decay, (1.0 - onset * t) * decay, onset * (onset * t - 2.0) * decay)
-    ]
-    norms[2] += 1.0  # the part of s^2 / (s + onset)^2 that passes at once
-    assert demand_bound(onset, 1.0, 1e9, 1e9) == pytest.approx(0.5 / norms[0], rel=1e-3)
-    assert demand_bound(onset, 1e9, 1.0, 1e9) == pytest.approx(0.5 / norms[1], rel=1e-3)
-    assert demand_bound(onset, 1e9, 1e9, 1.0) == pytest.approx(0.5 / norms[2], rel=1e-3)
-
-
+@PLANNERS
 @pytest.mark.parametrize("dt", DTS)
-def test_random_demands_of_any_size_stay_inside(dt: float) -> None:
+def test_random_demands_of_any_size_stay_inside(planned: StageParameters, dt: float) -> None:
     random = np.random.default_rng(1)
-    cueing = StageCueing(dt, StageParameters(), LIMITS, (0.3, 0.1, 0.5))
+    cueing = StageCueing(dt, planned, LIMITS, (0.3, 0.1, 0.5))
     for _ in range(3000):
         f, w = random.standard_normal((2, 3)) * 10.0 ** random.uniform(-2.0, 12.0)
         p, v, a = cueing.step(IDENTITY, tuple(w.tolist()), tuple(f.tolist()))
@@ -130,9 +45,10 @@ def test_random_demands_of_any_size_stay_inside(dt: float) -> None:
             assert np.all(np.abs(state) <= limit)
 
 
-def test_position_velocity_and_acceleration_are_one_motion() -> None:
+@PLANNERS
+def test_position_velocity_and_acceleration_are_one_motion(planned: StageParameters) -> None:
     dt = 1e-3
-    cueing = StageCueing(dt, StageParameters(), LIMITS, ZERO)
+    cueing = StageCueing(dt, planned, LIMITS, ZERO)
     forces = ((sin(2.0 * i * dt), 0.5 * sin(5.0 * i * dt), -STANDARD_GRAVITY) for i in range(4000))
     path = [cueing.step(IDENTITY, ZERO, f) for f in forces]
     p, v, a = np.moveaxis(np.array(path), 1, 0)
@@ -141,34 +57,19 @@ def test_position_velocity_and_acceleration_are_one_motion() -> None:
     assert np.max(np.abs(np.diff(v, axis=0) / dt - 0.5 * (a[1:] + a[:-1]))) < 2e-3
 
 
-def test_a_small_onset_is_given_whole_and_a_lasting_one_comes_back_unfelt() -> None:
-    """Acceleration at once as demanded; when braking is over, less than 0.063 m/s^2, for ever, and back to the centre."""
-    dt, demand = 1.0 / 120.0, 0.3
-    for size in (demand, 1e6):
-        cueing, a = StageCueing(dt, StageParameters(force_gain=(1.0,) * 3), LIMITS, ZERO), []
-        cueing.step(IDENTITY, ZERO, (0.0, 0.0, -STANDARD_GRAVITY))
-        for _ in range(int(60.0 / dt)):
-            p, _, now = cueing.step(IDENTITY, ZERO, (size, 0.0, -STANDARD_GRAVITY))
-            a.append(now[0])
-        if size == demand:
-            assert max(a) == pytest.approx(demand, rel=0.35)
-        assert max(a) == pytest.approx(max(a[: int(0.3 / dt)]))  # the onset is at the onset
-        assert np.max(np.abs(a[int(8.0 / dt) :])) < 0.063
-        assert abs(p[0]) < 1e-3
-        assert cueing.step(IDENTITY, ZERO, (size, 0.0, -STANDARD_GRAVITY))[0][1:] == (0.0, 0.0)
-
-
-def test_what_is_there_at_the_start_is_no_onset() -> None:
-    cueing = StageCueing(0.01, StageParameters(), LIMITS, ZERO)
+@PLANNERS
+def test_what_is_there_at_the_start_is_no_onset(planned: StageParameters) -> None:
+    cueing = StageCueing(0.01, planned, LIMITS, ZERO)
     for _ in range(200):
         assert cueing.step(IDENTITY, ZERO, (2.0, 1.0, -12.0)) == (ZERO, ZERO, ZERO)
 
 
+@PLANNERS
 @pytest.mark.parametrize("turn", [(0.0, 0.0, 0.0), (1.0, 0.5, -2.0), (np.pi, 0.0, 0.0)])
-def test_gravity_is_no_demand_at_any_attitude(turn: Vec3) -> None:
+def test_gravity_is_no_demand_at_any_attitude(planned: StageParameters, turn: Vec3) -> None:
     """A cabin at rest whose rider should feel just what he feels at rest."""
     q = exp(turn)
-    cueing = StageCueing(0.01, StageParameters(), LIMITS, ZERO)
+    cueing = StageCueing(0.01, planned, LIMITS, ZERO)
     cueing.step(IDENTITY, ZERO, (0.0, 0.0, -STANDARD_GRAVITY))
     for _ in range(100):
         p, v, a = cueing.step(q, ZERO, flip(rotate(conjugate(q), (0.0, 0.0, STANDARD_GRAVITY))))
@@ -180,7 +81,7 @@ def test_the_demand_is_in_base_axes_with_its_gain() -> None:
     q = exp((0.0, 0.0, 0.5 * np.pi))
     peaks = []
     for gain in ((1.0, 1.0, 1.0), (1.0, 0.5, 1.0), (1.0, 0.0, 1.0)):
-        cueing = StageCueing(0.01, StageParameters(force_gain=gain), HUGE, ZERO)
+        cueing = StageCueing(0.01, replace(ONSET, force_gain=gain), HUGE, ZERO)
         cueing.step(q, ZERO, (0.0, 0.0, -STANDARD_GRAVITY))
         a = np.array([cueing.step(q, ZERO, (0.5, 0.0, -STANDARD_GRAVITY))[2] for _ in range(50)])
         assert np.max(np.abs(a[:, [0, 2]])) < 1e-12
@@ -189,8 +90,9 @@ def test_the_demand_is_in_base_axes_with_its_gain() -> None:
     assert peaks[0] > 0.3
 
 
+@PLANNERS
 @pytest.mark.parametrize("head", [(0.4, -0.2, 0.7), (0.0, 0.0, 1.0)])
-def test_the_head_s_own_acceleration_is_subtracted(head: Vec3) -> None:
+def test_the_head_s_own_acceleration_is_subtracted(planned: StageParameters, head: Vec3) -> None:
     """The force asked for is just what the turning makes, from second differences of the head's path: the stage stays."""
     dt, n = 1e-3, 3000
     t = dt * np.arange(n)
@@ -201,7 +103,7 @@ def test_the_head_s_own_acceleration_is_subtracted(head: Vec3) -> None:
     made = np.gradient(np.gradient(r, dt, axis=0), dt, axis=0)
     both = []
     for subtracting in (head, ZERO):
-        cueing, moved = StageCueing(dt, StageParameters(), HUGE, subtracting), []
+        cueing, moved = StageCueing(dt, planned, HUGE, subtracting), []
         for i in range(2, n - 2):
             force_W = (made[i] + [0.0, 0.0, STANDARD_GRAVITY]).tolist()
             f_B = flip(rotate(conjugate(q[i]), tuple(force_W)))
@@ -210,3 +112,25 @@ def test_the_head_s_own_acceleration_is_subtracted(head: Vec3) -> None:
     assert np.max(np.abs(made)) > 0.4
     assert both[0] < 0.02
     assert both[1] > 20.0 * both[0]
+
+
+def test_each_axis_has_its_planner_and_its_limits() -> None:
+    for planned, kind in ((ONSET, OnsetFilter), (StageParameters(), HorizonAxis)):
+        assert all(isinstance(axis, kind) for axis in StageCueing(0.01, planned, LIMITS, ZERO)._axes)
+    bounds = [axis.problem.bound[-2] for axis in StageCueing(0.01, StageParameters(travel=(0.5, 2.0, 2.0)), LIMITS, ZERO)._axes]
+    assert bounds == pytest.approx([0.999 * x for x in (0.5, 1.0, 0.75)])
+
+
+@pytest.mark.parametrize("dt", DTS)
+def test_no_more_axes_plan_in_one_tick_than_there_have_to(dt: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """At 1000 Hz the three are never in one tick, and each plans 50 times a second."""
+    plans: list[list[int]] = [[], [], []]
+    cueing = StageCueing(dt, StageParameters(), LIMITS, ZERO)
+    ticks = int(1.0 / dt)
+    for tick in range(ticks):
+        for axis, made in zip(cueing._axes, plans, strict=True):
+            monkeypatch.setattr(axis, "_plan", lambda _, made=made, tick=tick: made.append(tick))
+        cueing.step(IDENTITY, ZERO, (1.0, 1.0, -STANDARD_GRAVITY))
+    assert all(len(made) >= 50 or len(made) == ticks for made in plans)
+    if dt < 1.0 / 150.0:
+        assert len({tick for made in plans for tick in made}) == sum(map(len, plans))

@@ -60,8 +60,10 @@ def test_a_log_cannot_be_changed(log: Log) -> None:
 
 
 def test_tables_of_pieces() -> None:
-    pieces = [np.ones((2, 1)), np.zeros((1, 1))]
-    assert table_of(("a",), pieces).values.ravel().tolist() == [1.0, 1.0, 0.0]
+    pieces = [(np.ones((2, 1)), np.array([5, 6], np.uint64)), (np.zeros((1, 1)), np.array([7], np.uint64))]
+    table = table_of(("a",), pieces)
+    assert table.values.ravel().tolist() == [1.0, 1.0, 0.0]
+    assert table.log_times.tolist() == [5, 6, 7]
     assert pieces == []
     empty = table_of(("a", "b"), [])
     assert isinstance(empty, Table)

@@ -8,7 +8,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from atlas_cueing.recording.schemas import flat_schema, message_class
-from atlas_cueing.recording.wire import EPOCH_NS, LATEST_S, flat_dtype, flat_template, log_times, put, repeat, take
+from atlas_cueing.recording.wire import (
+    EPOCH_NS,
+    LATEST_S,
+    flat_dtype,
+    flat_template,
+    live_log_times,
+    log_times,
+    put,
+    record_content,
+    record_template,
+    repeat,
+    take,
+)
 from atlas_cueing.signals import TOPICS, Topic
 
 WIDE = Topic("/wide", "atlas.Wide", tuple(f"field_{i}" for i in range(40)))
@@ -24,6 +36,20 @@ def test_log_times_are_the_nearest_nanosecond(times: list[float]) -> None:
 def test_log_times_do_not_lose_nanoseconds_late_in_a_flight() -> None:
     time = 86_400.0 + 0.123456789
     assert int(log_times(np.array([time]))[0]) == EPOCH_NS + round(Fraction(time) * 10**9)
+
+
+@settings(deadline=None)
+@given(st.lists(st.floats(0.0, LATEST_S), min_size=1, max_size=20), st.integers(1_600_000_000 * 10**9, 2_000_000_000 * 10**9))
+def test_live_log_times_count_from_the_start(elapsed: list[float], started: int) -> None:
+    for time, found in zip(elapsed, live_log_times(np.array(elapsed), started).tolist(), strict=True):
+        assert abs(found - started - Fraction(time) * 10**9) <= Fraction(1, 2) + Fraction(1, 10**6)
+
+
+@given(st.binary(max_size=100), st.binary(max_size=100))
+def test_the_content_of_a_record_is_found(before: bytes, content: bytes) -> None:
+    data = before + record_template(3, content, 7) + b"after"
+    start, end = record_content(data, len(before))
+    assert data[start:end] == content
 
 
 @pytest.mark.parametrize("topic", [*TOPICS, WIDE], ids=lambda topic: topic.name)

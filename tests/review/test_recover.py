@@ -171,3 +171,14 @@ def test_nothing_to_recover(tmp_path: Path) -> None:
 def test_nowhere_to_write(log: Path, tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="No such file or directory"):
         recover(log, tmp_path / "no" / "fixed.mcap")
+
+
+def test_the_part_of_a_killed_run_can_be_recovered_under_its_own_name(log: Path, tmp_path: Path) -> None:
+    """Whatever name recover writes under for the time being, it must not be that of the log it reads."""
+    part = tmp_path / "flight.mcap.part"
+    part.write_bytes(log.read_bytes()[: chunk_starts(log)[7]])
+    before = part.read_bytes()
+    recover(part, tmp_path / "flight.mcap")
+    assert part.read_bytes() == before
+    assert len(read_log(tmp_path / "flight.mcap").column("/motion", "time_s")) == 7 * CHUNK
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["flight.mcap", "flight.mcap.part"]

@@ -89,3 +89,11 @@ def test_a_log_that_cannot_be_cued(flight: Path, tmp_path: Path) -> None:
 def _text(folder: Path) -> Path:
     (folder / "text.mcap").write_text("no log")
     return folder / "text.mcap"
+
+
+def test_a_recorded_flight_is_known_beforehand(flight: Path, tmp_path: Path) -> None:
+    recue(flight, ["cueing.method=preview"], tmp_path / "new.mcap")
+    old, new = read_log(flight), read_log(tmp_path / "new.mcap")
+    assert np.array_equal(old.tables["/vehicle"].values, new.tables["/vehicle"].values)
+    assert new.metadata["method"] == "preview"
+    assert review(tmp_path / "new.mcap").clean

@@ -5,8 +5,10 @@ import pytest
 
 from atlas_cueing.errors import InputError, SlipConditionError
 from atlas_cueing.rotation import IDENTITY, ZERO
-from atlas_cueing.scenario import Scenario, build, load_scenario
+from atlas_cueing.scenario import Scenario, build, load_scenario, prepare
+from atlas_cueing.scenario.cueing import METHODS
 from atlas_cueing.signals import STANDARD_GRAVITY, VehicleState
+from atlas_cueing.vehicles import FlownAhead, RecordedVehicle
 
 from .texts import SCRIPT
 
@@ -76,3 +78,46 @@ def test_all_oracle_geometries_can_be_typed_into_a_platform(tmp_path: Path) -> N
         geometry = loaded(tmp_path, *settings).platform.geometry()
         assert geometry.slip_free == case["slip_free"]
         assert geometry.wheels_from_sphere == tuple(pytest.approx(row, abs=1e-12) for row in case["wheels_from_sphere"])
+
+
+PUSHED = [VehicleState(i * 0.01, IDENTITY, ZERO, (0.5 if 100 < i < 150 else 0.0, 0.0, -STANDARD_GRAVITY)) for i in range(300)]
+
+
+def test_only_preview_needs_the_whole_flight(tmp_path: Path) -> None:
+    assert loaded(tmp_path, "cueing.method=preview").needs_whole_flight
+    assert not any(loaded(tmp_path, f"cueing.method={method}").needs_whole_flight for method in METHODS)
+
+
+def test_without_the_whole_flight_preview_is_refused_in_one_line(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"^scenario 'short': method 'preview' needs the whole flight .*does not fly live.*$"):
+        build(loaded(tmp_path, "cueing.method=preview"), 0.01)
+
+
+def test_a_vehicle_is_flown_ahead_only_for_who_needs_it(tmp_path: Path) -> None:
+    vehicle, other = RecordedVehicle(PUSHED), RecordedVehicle(PUSHED)
+    assert prepare(loaded(tmp_path), vehicle)[0] is vehicle
+    ahead, _ = prepare(loaded(tmp_path, "cueing.method=preview"), other)
+    assert isinstance(ahead, FlownAhead)
+    assert ahead.states == PUSHED
+    assert ahead.state == PUSHED[0]
+
+
+def test_the_plan_passes_smoothing_unchanged_and_begins_before_the_push(tmp_path: Path) -> None:
+    vehicle, pipeline = prepare(loaded(tmp_path, "cueing.method=preview"), RecordedVehicle(PUSHED))
+    ticks = [pipeline.step(vehicle.state)]
+    while vehicle.advance():
+        ticks.append(pipeline.step(vehicle.state))
+    assert len(ticks) == len(PUSHED)
+    assert max(abs(tick.motion.v_WS_W[0]) for tick in ticks[:100]) > 0.01
+    assert all(tick.motion.limited == (0.0, 0.0) for tick in ticks)
+    for tick in ticks:
+        assert tick.motion.p_WS_W == pytest.approx(tick.cue.p_WS_W, abs=1e-6)
+
+
+def test_the_platform_s_limits_are_the_plan_s(tmp_path: Path) -> None:
+    scenario = loaded(tmp_path, "cueing.method=preview", "platform.stage_limits.travel_m=0.01")
+    vehicle, pipeline = prepare(scenario, RecordedVehicle(PUSHED))
+    reached = [abs(pipeline.step(vehicle.state).cue.p_WS_W[0])]
+    while vehicle.advance():
+        reached.append(abs(pipeline.step(vehicle.state).cue.p_WS_W[0]))
+    assert 0.009 < max(reached) <= 0.01

@@ -10,11 +10,21 @@ from atlas_cueing.cueing import (
     BlendParameters,
     ClassicalParameters,
     ForceParameters,
+    PreviewParameters,
     StageParameters,
 )
-from atlas_cueing.scenario.cueing import METHODS, AttitudeTable, BlendTable, ClassicalTable, CueingTable, ForceTable
+from atlas_cueing.scenario.cueing import (
+    ALL_METHODS,
+    METHODS,
+    AttitudeTable,
+    BlendTable,
+    ClassicalTable,
+    CueingTable,
+    ForceTable,
+    PreviewTable,
+)
 
-adapter: TypeAdapter[AttitudeTable | BlendTable | ForceTable | ClassicalTable] = TypeAdapter(CueingTable)
+adapter: TypeAdapter[AttitudeTable | BlendTable | ForceTable | ClassicalTable | PreviewTable] = TypeAdapter(CueingTable)
 
 
 def test_defaults_are_those_of_the_cueing_itself() -> None:
@@ -109,7 +119,7 @@ def test_every_key_of_classical_arrives() -> None:
     assert (method.rotation_gain, method.tilt_gain) == ((0.1, 0.2, 0.3), (0.4, 0.5, 0.6))
     assert (method.high_pass, method.tilt_low_pass) == ((0.7, 0.8, 0.9), 1.5)
     assert (degrees(method.tilt_rate), degrees(method.angle_limit)) == (pytest.approx(5.0), pytest.approx(1e6))
-    assert table.stage_parameters() == StageParameters((0.4, 0.5, 0.6), (1.1,) * 3, (0.0,) * 3, 7.0, (0.1, 0.2, 0.3))
+    assert table.stage_parameters() == StageParameters((0.4, 0.5, 0.6), (1.1,) * 3, (0.0,) * 3, 7.0, (0.1, 0.2, 0.3), None)
 
 
 @pytest.mark.parametrize("stage", [{}, {"bandwidth_hz": 5}])
@@ -130,14 +140,36 @@ def test_blend_is_the_default() -> None:
 def test_the_list_of_methods_is_the_union() -> None:
     union, _ = get_args(CueingTable)
     tables = [get_args(branch)[0] for branch in get_args(union)]
-    assert list(METHODS.values()) == tables
-    assert [table.model_fields["method"].default for table in tables] == list(METHODS)
+    assert list(ALL_METHODS.values()) == tables
+    assert [table.model_fields["method"].default for table in tables] == list(ALL_METHODS)
+    assert set(ALL_METHODS) - set(METHODS) == {"preview"}  # it cannot fly live, so no pattern means it
+
+
+def test_every_key_of_preview_arrives() -> None:
+    table = adapter.validate_python(
+        {
+            "method": "preview",
+            "align_rate_deg_s": 180,
+            "align_smoothing_s": 0.1,
+            "force_unit_m_s2": 0.3,
+            "rate_unit_deg_s": 6,
+            "planning_rate_hz": 50,
+        }
+    )
+    method = table.parameters()
+    assert isinstance(method, PreviewParameters)
+    assert (degrees(method.rate), degrees(method.rate_unit)) == pytest.approx((180.0, 6.0))
+    assert (method.smoothing, method.force_unit, method.planning_rate) == (0.1, 0.3, 50.0)
+    assert PreviewTable().parameters() == PreviewParameters()
 
 
 @pytest.mark.parametrize(
     "bad",
     [
-        {"method": "preview"},
+        {"method": "foresight"},
+        {"method": "preview", "force_gain": 0.5},
+        {"method": "preview", "align_rate_deg_s": 0},
+        {"method": "preview", "planning_rate_hz": 1000},
         {"method": "classical", "align_rate_deg_s": 1.0},
         {"method": "force", "tilt_rate_deg_s": 1.0},
         {"method": "classical", "angle_limit_deg": 0},

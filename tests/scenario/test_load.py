@@ -103,7 +103,8 @@ def test_a_wrong_key_is_not_left_behind(tmp_path: Path) -> None:
 
 
 def test_an_unknown_method_from_the_command_line(tmp_path: Path) -> None:
-    with pytest.raises(ScenarioError, match=r"^--set: cueing\.method = 'hexapod': allowed: attitude, blend, classical, force$"):
+    allowed = "attitude, blend, classical, force, preview"
+    with pytest.raises(ScenarioError, match=rf"^--set: cueing\.method = 'hexapod': allowed: {allowed}$"):
         load_scenario(written(tmp_path), ["cueing.method=hexapod"])
 
 

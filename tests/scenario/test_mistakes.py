@@ -64,10 +64,10 @@ def test_each_says_what_is_allowed(refused: Refused) -> None:
 def test_an_unknown_method_lists_the_known_ones(refused: Refused) -> None:
     text = AIRCRAFT.replace('"attitude"', '"atitude"')
     assert refused(text) == [
-        "bad.toml: cueing.method = 'atitude': did you mean 'attitude'? allowed: attitude, blend, classical, force"
+        "bad.toml: cueing.method = 'atitude': did you mean 'attitude'? allowed: attitude, blend, classical, force, preview"
     ]
     assert refused(AIRCRAFT.replace('"attitude"', "3")) == [
-        "bad.toml: cueing.method = 3: allowed: attitude, blend, classical, force"
+        "bad.toml: cueing.method = 3: allowed: attitude, blend, classical, force, preview"
     ]
     assert refused(AIRCRAFT.split("[cueing]")[0].replace("name =", "cueing = 3\nname =")) == [
         "bad.toml: cueing = 3: allowed: a table"

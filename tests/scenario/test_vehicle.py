@@ -4,44 +4,20 @@ from pathlib import Path
 import pytest
 
 from atlas_cueing.batch import run_scenario
-from atlas_cueing.scenario import load_scenario
+from atlas_cueing.errors import InputError
+from atlas_cueing.scenario import RecordedFlight, load_scenario
 from atlas_cueing.scenario.vehicle import Flight, script_beside
 from atlas_cueing.vehicles import (
     AircraftFlight,
+    FlightgearFlight,
     InitialConditions,
     ScriptFlight,
-    Signal,
-    SignalFlight,
     TimedInput,
     own_scripts,
 )
 
 from .conftest import Refused
-from .texts import AIRCRAFT, INITIAL, SCRIPT, USER_SCRIPT
-
-SIGNALS = """
-name = "signals"
-[vehicle]
-source = "signal"
-rate_hz = 50
-force_follows_attitude = false
-[[vehicle.signal]]
-axis = "roll_rate"
-shape = "sweep"
-amplitude_deg_s = 90
-frequency_rad_s = 0.5
-end_frequency_rad_s = 5
-time_s = 0.5
-duration_s = 2.0
-ramp_s = 0.5
-[[vehicle.signal]]
-axis = "force_y"
-shape = "step"
-amplitude_m_s2 = -2.0
-duration_s = 1.0
-[platform]
-preset = "atlas-2.9m"
-"""
+from .texts import AIRCRAFT, INITIAL, SCRIPT, SIGNALS, USER_SCRIPT
 
 
 def load(folder: Path, text: str) -> Flight:
@@ -135,12 +111,8 @@ def test_near_names_are_given(refused: Refused) -> None:
             ],
         ),
         (
-            SCRIPT.replace("[vehicle]", '[vehicle]\nsource = "flightgear"'),
-            ["vehicle.source = 'flightgear': allowed: only 'jsbsim' and 'signal' fly in batch runs"],
-        ),
-        (
             SCRIPT.replace("[vehicle]", '[vehicle]\nsource = "xplane"'),
-            ["vehicle.source = 'xplane': allowed: 'jsbsim', 'signal'"],
+            ["vehicle.source = 'xplane': allowed: 'jsbsim', 'signal', 'flightgear', 'recording'"],
         ),
         (
             AIRCRAFT.replace("[[vehicle.input]]", "[vehicle.input]", 1).split("[[")[0] + '[platform]\npreset = "atlas-1.5m"',
@@ -151,7 +123,7 @@ def test_near_names_are_given(refused: Refused) -> None:
             ["vehicle.rate_hz = 1001: allowed: a number, 10 <= value <= 1000"],
         ),
     ],
-    ids=["none", "both", "initial", "bare", "flightgear", "unknown source", "one input", "rate"],
+    ids=["none", "both", "initial", "bare", "unknown source", "one input", "rate"],
 )
 def test_refused(refused: Refused, text: str, mistakes: list[str]) -> None:
     assert refused(text) == [f"bad.toml: {mistake}" for mistake in mistakes]
@@ -182,118 +154,80 @@ def test_each_number_is_checked(refused: Refused, old: str, new: str, mistake: s
     assert refused(AIRCRAFT.replace(old, new, 1)) == [f"bad.toml: {mistake}"]
 
 
-def test_signals_in_si(tmp_path: Path) -> None:
-    sweep = Signal("roll_rate", "sweep", radians(90), 0.5, 2.0, 0.5, 0.5, 5.0)
-    step = Signal("force_y", "step", -2.0, 0.0, 1.0)
-    assert load(tmp_path, SIGNALS) == SignalFlight((sweep, step), 50.0, None, False)
-    plain = SIGNALS.replace("rate_hz = 50\n", "").replace("force_follows_attitude = false\n", "")
-    assert load(tmp_path, f"duration_s = 9\n{plain}") == SignalFlight((sweep, step), None, 9.0, True)
+FLIGHTGEAR = """
+name = "elsewhere"
+[vehicle]
+source = "flightgear"
+[platform]
+preset = "atlas-2.9m"
+"""
+RECORDING = FLIGHTGEAR.replace('"flightgear"', '"recording"\nlog = "logs/flown.mcap"')
 
 
-def test_signals_fly_and_their_log_flies_again(tmp_path: Path) -> None:
-    """The batch run knows the source, and what it attaches to the log is a scenario of the same flight."""
-    (tmp_path / "s.toml").write_text(SIGNALS)
-    scenario = load_scenario(tmp_path / "s.toml", ["vehicle.signal.0.amplitude_deg_s=45"])
-    result = run_scenario(scenario, tmp_path / "log.mcap")
-    assert (result.result, result.ticks, result.evaluation.violations) == ("ok", 126, ())
-    again = tmp_path / "again"
-    again.mkdir()
+def test_flightgear_and_its_defaults(tmp_path: Path) -> None:
+    path = tmp_path / "s.toml"
+    path.write_text(FLIGHTGEAR)
+    assert load_scenario(path).live_flight == FlightgearFlight("127.0.0.1", 5501, 120.0)
+    settings = ("vehicle.host=127.0.0.2", "vehicle.port=6000", "vehicle.rate_hz=60")
+    assert load_scenario(path, settings).live_flight == FlightgearFlight("127.0.0.2", 6000, 60.0)
+
+
+def test_a_recording_lies_beside_the_scenario(tmp_path: Path) -> None:
+    """Whether it is there is seen when it is played: the scenario inside a log must load without it."""
+    path = tmp_path / "s.toml"
+    path.write_text(RECORDING)
+    assert load_scenario(path).live_flight == RecordedFlight(tmp_path / "logs/flown.mcap")
+
+
+def test_what_flies_in_batch_runs_flies_live_too(tmp_path: Path) -> None:
+    for text in (SCRIPT, AIRCRAFT, SIGNALS):
+        (tmp_path / "s.toml").write_text(text)
+        scenario = load_scenario(tmp_path / "s.toml")
+        assert scenario.live_flight == scenario.flight
+
+
+@pytest.mark.parametrize("text", [FLIGHTGEAR, RECORDING], ids=["flightgear", "recording"])
+def test_what_flies_only_live_is_refused_by_a_batch_run(tmp_path: Path, text: str) -> None:
+    (tmp_path / "s.toml").write_text(text)
+    scenario = load_scenario(tmp_path / "s.toml")
+    with pytest.raises(InputError, match=r"^source = '\w+' flies only live: atlas-cueing live FILE"):
+        run_scenario(scenario, tmp_path / "log.mcap")
+    assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]
+
+
+@pytest.mark.parametrize("text", [FLIGHTGEAR, RECORDING], ids=["flightgear", "recording"])
+def test_what_flies_live_goes_into_its_log(tmp_path: Path, text: str) -> None:
+    (tmp_path / "s.toml").write_text(text)
+    scenario = load_scenario(tmp_path / "s.toml")
     for name, content in scenario.attachments().items():
-        (again / name).write_bytes(content)
-    assert load_scenario(again / "scenario.toml").flight == scenario.flight
-    assert isinstance(scenario.flight, SignalFlight)
-    assert scenario.flight.signals[0].amplitude == radians(45)
+        (tmp_path / name).write_bytes(content)
+    assert load_scenario(tmp_path / "scenario.toml").live_flight == scenario.live_flight
 
 
-def test_other_sources_attach_no_keys_of_signals(tmp_path: Path) -> None:
-    (tmp_path / "s.toml").write_text(SCRIPT)
-    text = load_scenario(tmp_path / "s.toml").scenario_toml()
-    assert "signal" not in text
-    assert "force_follows_attitude" not in text
+@pytest.mark.parametrize("host", ['"0.0.0.0"', '"192.168.1.2"', '"::1"', '"localhost"', '""', "1", "nan", "[]"])
+def test_packets_of_other_machines_are_not_taken_yet(refused: Refused, host: str) -> None:
+    (told,) = refused(FLIGHTGEAR, f"vehicle.host={host}")
+    assert told.endswith("allowed: '127.0.0.1' or another loopback address; packets from other machines are not taken yet")
 
 
 @pytest.mark.parametrize(
     ("text", "mistakes"),
     [
-        (
-            SIGNALS.replace('"signal"', '"jsbsim"').replace("[[", 'script = "c1722"\n[[', 1),
-            ["signal", "force_follows_attitude"],
-        ),
-        (SIGNALS.replace("[[", 'script = "c1722"\naircraft = "f16"\n[[', 1), ["script", "aircraft"]),
-        (SIGNALS.replace("[platform]", "[[vehicle.input]]\ntime_s = 1\nproperty = 'a'\nvalue = 1\n[platform]"), ["input"]),
-    ],
-    ids=["not signals", "jsbsim", "inputs"],
-)
-def test_sources_do_not_mix(refused: Refused, text: str, mistakes: list[str]) -> None:
-    allowed = "only with source = 'signal'" if "jsbsim" in text else "not with source = 'signal'"
-    assert refused(text) == [f"bad.toml: vehicle.{key}: {allowed}" for key in mistakes]
-
-
-def test_no_signal_at_all(refused: Refused) -> None:
-    nothing = SIGNALS.split("[[")[0] + '[platform]\npreset = "atlas-2.9m"'
-    missing = "bad.toml: vehicle.signal: missing, at least one [[vehicle.signal]]"
-    assert refused(nothing) == [missing]
-    assert refused(nothing.replace("rate_hz", "signal = []\nrate_hz")) == [missing]
-    table = SIGNALS.split("[[vehicle.signal]]")
-    assert refused(f"{table[0]}[vehicle.signal]{table[1]}{table[2][-34:]}") == [
-        "bad.toml: vehicle.signal: allowed: tables, written [[vehicle.signal]]"
-    ]
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "mistake"),
-    [
-        (
-            '"roll_rate"',
-            '"roll"',
-            "axis = 'roll': allowed: 'roll_rate', 'pitch_rate', 'yaw_rate', 'force_x', 'force_y', 'force_z'",
-        ),
-        ('"sweep"', '"square"', "shape = 'square': allowed: 'sine', 'sweep', 'step', 'doublet'"),
-        ('"sweep"', '"sine"', "end_frequency_rad_s: not with shape = 'sine'"),
-        ("frequency_rad_s = 0.5\n", "", "frequency_rad_s: missing, needed with shape = 'sweep'"),
-        ("amplitude_deg_s = 90\n", "", "amplitude_deg_s: missing, needed with axis = 'roll_rate'"),
-        ("amplitude_deg_s = 90", "amplitude_deg_s = 2501", "amplitude_deg_s = 2501: allowed: a number, -2500 <= value <= 2500"),
-        ("amplitude_deg_s = 90", "amplitude_deg_s = nan", "amplitude_deg_s = nan: allowed: a number, -2500 <= value <= 2500"),
-        ("rad_s = 0.5", "rad_s = 0", "frequency_rad_s = 0: allowed: a number, 0.001 <= value <= 1000"),
-        ("duration_s = 2.0\n", "", "duration_s: missing"),
-        ("ramp_s = 0.5", "ramp_s = 0", "ramp_s = 0: allowed: a number, 0 < value <= 86400"),
-        (
-            "ramp_s = 0.5",
-            "ramp = 0.5",
-            "ramp = 0.5: unknown key; did you mean 'ramp_s'? allowed: amplitude_deg_s, amplitude_m_s2, axis, ",
-        ),
+        (FLIGHTGEAR.replace("[platform]", "port = 0\n[platform]"), ["port = 0: allowed: a whole number, 1 <= value <= 65535"]),
+        (FLIGHTGEAR.replace("[platform]", "port = 5.5\n[platform]"), ["port = 5.5: allowed: a whole number"]),
+        (FLIGHTGEAR.replace("[platform]", "rate_hz = 1\n[platform]"), ["rate_hz = 1: allowed: a number, 10 <= value <= 1000"]),
+        (FLIGHTGEAR.replace("[platform]", 'log = "x"\n[platform]'), ["log: not with source = 'flightgear'"]),
+        (FLIGHTGEAR.replace("[platform]", 'script = "c1722"\n[platform]'), ["script: not with source = 'flightgear'"]),
+        (RECORDING.replace('log = "logs/flown.mcap"', ""), ["log: missing, the log that is played"]),
+        (RECORDING.replace('"logs/flown.mcap"', '""'), ["log = '': allowed: path of a log"]),
+        (RECORDING.replace('"logs/flown.mcap"', "1"), ["log = 1: allowed: path of a log"]),
+        (RECORDING.replace("[platform]", "rate_hz = 50\nport = 5\n[platform]"), ["rate_hz: not with", "port: not with"]),
+        (SCRIPT.replace('"c1722"', '"c1722"\nport = 5'), ["port: only with source = 'flightgear'"]),
+        (SCRIPT.replace('"c1722"', '"c1722"\nlog = "x"'), ["log: only with source = 'recording'"]),
     ],
 )
-def test_each_key_of_a_signal_is_checked(refused: Refused, old: str, new: str, mistake: str) -> None:
-    (told,) = refused(SIGNALS.replace(old, new, 1))
-    assert told.startswith(f"bad.toml: vehicle.signal.0.{mistake}")
-
-
-def test_ramps_must_fit(refused: Refused) -> None:
-    assert refused(SIGNALS.replace("ramp_s = 0.5", "ramp_s = 1.5")) == [
-        "bad.toml: vehicle.signal.0: signal on roll_rate: the ramps of a sweep of 2 s must fit into it: ramp = 1.5 s, "
-        "allowed: 0 < ramp <= 1"
-    ]
-
-
-def test_all_mistakes_of_all_signals_at_once(refused: Refused) -> None:
-    wrong = (
-        SIGNALS.replace("_rate", "_speed")
-        .replace("amplitude_m_s2", "amplitude_deg_s")
-        .replace("duration_s = 1.0", "duration_s = -1.0")
-        .replace("follows_attitude = false", "follows_attitude = 0")
-    )
-    assert [line.removeprefix("bad.toml: vehicle.").split(" ")[0].rstrip(":") for line in refused(wrong)] == [
-        "force_follows_attitude",
-        "signal.0.axis",
-        "signal.1.duration_s",
-        "signal.1.amplitude_deg_s",
-        "signal.1.amplitude_m_s2",
-    ]
-
-
-def test_nonsense_in_place_of_signals(refused: Refused) -> None:
-    """What is no table, or no list, is a mistake and no traceback."""
-    for nonsense in ("1", '"x"', "[1, 2]", "{axis = 1}"):
-        text = SIGNALS.split("[[")[0] + f"signal = {nonsense}\n[platform]\npreset = 'atlas-2.9m'"
-        assert all("vehicle.signal" in line for line in refused(text))
+def test_keys_of_sources_that_fly_live(refused: Refused, text: str, mistakes: list[str]) -> None:
+    told = refused(text)
+    assert len(told) == len(mistakes)
+    for line, mistake in zip(told, mistakes, strict=True):
+        assert line.startswith(f"bad.toml: vehicle.{mistake}")

@@ -56,3 +56,28 @@ INITIAL = """<?xml version="1.0"?>
   <altitude unit="FT"> 4000.0 </altitude>
 </initialize>
 """
+
+# Two test signals: a sweep of the roll rate and a step of the side force.
+SIGNALS = """
+name = "signals"
+[vehicle]
+source = "signal"
+rate_hz = 50
+force_follows_attitude = false
+[[vehicle.signal]]
+axis = "roll_rate"
+shape = "sweep"
+amplitude_deg_s = 90
+frequency_rad_s = 0.5
+end_frequency_rad_s = 5
+time_s = 0.5
+duration_s = 2.0
+ramp_s = 0.5
+[[vehicle.signal]]
+axis = "force_y"
+shape = "step"
+amplitude_m_s2 = -2.0
+duration_s = 1.0
+[platform]
+preset = "atlas-2.9m"
+"""

@@ -93,14 +93,24 @@ def test_a_bad_stage_does_not_stop_the_sphere_nor_the_other_way_round() -> None:
         assert tuple(flight.limited[-1]) == (float(p is half), float(p is nan))
 
 
-def test_it_starts_at_rest_on_the_first_cue_with_the_stage_in_its_centre() -> None:
+def test_it_starts_at_rest_on_the_first_cue() -> None:
     first = Cue(5.0, (0.0, 0.6, 0.0, 0.8), (1.0, 0.0, 0.0), (0.3, 0.0, 0.0), ZERO, ZERO)
     smoothing = EQUILATERAL.smoothing(0.01)
     motion = smoothing.step(first)
     assert (motion.time, motion.q_WS) == (5.0, pytest.approx(first.q_WS))
-    assert motion.w_WS_W == motion.alpha_WS_W == motion.p_WS_W == motion.v_WS_W == motion.a_WS_W == ZERO
+    assert motion.p_WS_W == (0.3, 0.0, 0.0)
+    assert motion.w_WS_W == motion.alpha_WS_W == motion.v_WS_W == motion.a_WS_W == ZERO
     times = [smoothing.step(first).time for _ in range(3)]
     assert times == pytest.approx([5.01, 5.02, 5.03])
+
+
+@pytest.mark.parametrize(("asked", "begun"), [(7.0, 1.0), (-7.0, -1.0), (np.nan, 0.0), (np.inf, 0.0)])
+def test_it_starts_inside_the_travel(asked: float, begun: float) -> None:
+    smoothing = EQUILATERAL.smoothing(0.01)
+    travel = EQUILATERAL.stage.travel[1]
+    motion = smoothing.step(Cue(0.0, IDENTITY, ZERO, (0.0, asked, 0.0), ZERO, ZERO))
+    assert motion.p_WS_W == pytest.approx((0.0, begun * travel, 0.0), abs=1e-4)
+    assert abs(motion.p_WS_W[1]) <= travel
 
 
 @pytest.mark.parametrize("q", [(np.nan, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0), (2.0, 0.0, 0.0, 0.0)])

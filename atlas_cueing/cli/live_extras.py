@@ -1,0 +1,72 @@
+"""What a live run is shown on and sent to, as the options ask."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, closing, contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+
+from ..errors import InputError
+
+if TYPE_CHECKING:
+    from ..live.loop import Drives
+    from ..live.session import LiveSession
+    from ..scenario import Scenario
+
+_HIGHEST_PORT = 65535
+
+
+@contextmanager
+def followers(session: "LiveSession", scenario: "Scenario", view_port: int | None, foxglove_port: int | None) -> Iterator[None]:
+    """Processes that follow the ring; a port of None is not served. Each tells on stderr where it is."""
+    with ExitStack() as stack:
+        if view_port is not None:
+            from ..live.states import allowed_buttons
+            from ..viewer import ViewerProcess
+
+            press, allowed = session.buttons.press, allowed_buttons()
+            viewer = ViewerProcess(session.ring, scenario.platform, press, allowed, port=view_port, title=scenario.name)
+            stack.enter_context(viewer)
+            typer.echo(f"view: {viewer.url}", err=True)
+        if foxglove_port is not None:
+            from ..live.foxglove import FoxgloveProcess
+
+            server = FoxgloveProcess(session.ring, foxglove_port, scenario.platform.head_S, session.started_ns)
+            stack.callback(server.close)
+            typer.echo(f"foxglove: {server.url}", err=True)
+        yield
+
+
+@contextmanager
+def drives(setpoints: str | None, key_file: Path | None) -> Iterator[Sequence["Drives"]]:
+    """A sender of set points to HOST:PORT, or none. Raises InputError for an address or key that will not do."""
+    if setpoints is None:
+        if key_file is not None:
+            raise InputError("--key is for --setpoints HOST:PORT, which is missing")
+        yield ()
+        return
+    from ..live.setpoint import SetPointSender
+
+    host, port = _address(setpoints)
+    with closing(SetPointSender(host, port, key=_key(key_file) if key_file else b"")) as sender:
+        yield (sender,)
+    if sender.unsent:
+        typer.echo(f"{sender.unsent} set points could not be sent to {setpoints}", err=True)
+
+
+def _address(text: str) -> tuple[str, int]:
+    host, _, port = text.rpartition(":")
+    if not host or not port.isdigit() or not 1 <= int(port) <= _HIGHEST_PORT:
+        raise InputError(f"--setpoints {text}, allowed: HOST:PORT with a port of 1 to {_HIGHEST_PORT}")
+    return host, int(port)
+
+
+def _key(file: Path) -> bytes:
+    try:
+        key = file.read_bytes().strip()
+    except OSError as error:
+        raise InputError(f"--key {file}: {error.strerror}") from error
+    if not key:
+        raise InputError(f"--key {file}: holds no key")
+    return key

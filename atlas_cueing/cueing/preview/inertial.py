@@ -1,0 +1,59 @@
+"""The flight seen from A: axes that do not turn, and that lie along the cabin's own when the flight begins.
+
+If the cabin turned with the vehicle's body rates and nothing else, it would stand in A as `q_AS` says. Whatever a method adds
+is a turn of A against W, at the rate it adds; so in A the vehicle's turning drops out of the problem.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from ...errors import InputError
+from ...rotation import IDENTITY, Quat, Vec3, add, flip, integrate_body, normalise, scale
+from ...signals import VehicleState
+from .quaternions import rotated
+from .spline import Array
+
+_ABSURD = 1e6  # m/s^2 and rad/s; nothing that flies has more, and the arithmetic stays far from overflow
+
+
+@dataclass(frozen=True, slots=True)
+class Inertial:
+    """Vehicle at each tick, in A: orientation q_AS (n, 4), body rates w_A (n, 3) rad/s, specific force f_A (n, 3) m/s^2."""
+
+    time: Array
+    q_AS: Array
+    w_A: Array
+    f_A: Array
+
+
+def inertial(states: Sequence[VehicleState], dt: float) -> Inertial:
+    """Integrate the body rates by the trapezoid, as `Cabin` does tick by tick; dt in s.
+
+    Raises InputError for forces or rates that no vehicle has.
+    """
+    for state in states:
+        if not all(abs(x) <= _ABSURD for x in (*state.f_B, *state.w_NB_B)):
+            raise InputError(
+                f"method 'preview' finds no plan for this flight: at {state.time:g} s force {state.f_B} m/s^2 and "
+                f"rates {state.w_NB_B} rad/s, allowed: magnitudes up to {_ABSURD:g}"
+            )
+    w_S = [flip(state.w_NB_B) for state in states]
+    q_AS = np.array(turned(IDENTITY, w_S, dt))
+    return Inertial(
+        time=np.array([state.time for state in states]),
+        q_AS=q_AS,
+        w_A=rotated(q_AS, np.array(w_S)),
+        f_A=rotated(q_AS, np.array([flip(state.f_B) for state in states])),
+    )
+
+
+def turned(q: Quat, rates: Sequence[Vec3], dt: float) -> list[Quat]:
+    """Orientations at each tick from the first one, q, and the rates (rad/s) in axes that turn along."""
+    orientations = [q]
+    for before, now in pairwise(rates):
+        turn = scale(0.5 * dt, add(before, now))
+        orientations.append(normalise(integrate_body(orientations[-1], turn, before, now, dt)))
+    return orientations

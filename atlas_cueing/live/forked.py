@@ -1,0 +1,104 @@
+"""A process that is forked before the loop starts and follows it, whatever happens to either of them."""
+
+import os
+import signal
+import socket
+import traceback
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from dataclasses import dataclass
+from time import monotonic
+from typing import NoReturn, TypeAlias
+
+Left: TypeAlias = Callable[[], bool]
+"""Whether the parent is gone or waits in `finish`, and nothing more is to be expected of it."""
+
+_FAILED = 70  # exit status after an exception: EX_SOFTWARE of sysexits.h
+_IGNORED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # a terminal sends them to all; the loop decides what they mean
+
+
+@dataclass(frozen=True, slots=True)
+class Ended:
+    """How a process ended: what its function returned, and its exit status (negative: the signal that killed it)."""
+
+    answer: bytes
+    status: int
+
+
+class Forked:
+    """A function in a process of its own, which shares whatever memory is shared at the fork.
+
+    The process takes no notice of SIGINT, SIGTERM and SIGHUP; it lives until its function returns.
+    """
+
+    def __init__(self, function: Callable[[Left], bytes]) -> None:
+        """Start `function`; it has to ask the Left it is given every now and then, and to return soon when that is true."""
+        self._channel, theirs = socket.socketpair()
+        self._ended: Ended | None = None
+        parent = os.getpid()
+        mask = signal.pthread_sigmask(signal.SIG_BLOCK, _IGNORED)
+        self.pid = os.fork()
+        if self.pid == 0:
+            self._channel.close()
+            _run(function, theirs, parent, mask)
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        theirs.close()
+
+    @property
+    def alive(self) -> bool:
+        """Whether it runs; asks without waiting."""
+        return self._ended is None and os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None
+
+    def finish(self, timeout: float) -> Ended:
+        """Let it end, and wait for that: at most `timeout` s, then it is killed. Harmless when called again."""
+        if self._ended is None:
+            answer = self._answer(monotonic() + timeout)
+            self._channel.close()
+            _, status = os.waitpid(self.pid, 0)
+            self._ended = Ended(answer, os.waitstatus_to_exitcode(status))
+        return self._ended
+
+    def _answer(self, deadline: float) -> bytes:
+        """All it has to say; the end of that is the end of the process."""
+        answer = b""
+        try:
+            self._channel.shutdown(socket.SHUT_WR)
+            while True:
+                self._channel.settimeout(max(deadline - monotonic(), 1e-3))
+                piece = self._channel.recv(4096)
+                if not piece:
+                    return answer
+                answer += piece
+        except OSError:  # a TimeoutError, or it is gone and left our word unread
+            os.kill(self.pid, signal.SIGKILL)  # we have not waited for it yet, so the number is still its own
+            return b""
+
+
+def _run(function: Callable[[Left], bytes], channel: socket.socket, parent: int, mask: Iterable[int]) -> NoReturn:
+    """What the forked process does, and all it does: nothing of the parent's own is ever tidied up here."""
+    status = _FAILED
+    try:
+        for number in _IGNORED:
+            signal.signal(number, signal.SIG_IGN)
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        channel.setblocking(False)
+        answer = function(lambda: _left(channel, parent))
+        status = 0
+        with suppress(OSError):  # nobody is left to hear it
+            channel.sendall(answer)
+    except BaseException:  # noqa: BLE001 - must not climb into a copy of the parent's stack
+        traceback.print_exc()
+    finally:
+        os._exit(status)
+
+
+def _left(channel: socket.socket, parent: int) -> bool:
+    """See Left. The parent's number is asked, too: a sibling may hold a copy of its end of the channel."""
+    if os.getppid() != parent:
+        return True
+    try:
+        return channel.recv(1) == b""
+    except BlockingIOError:
+        return False
+    except OSError:
+        return True

@@ -1,0 +1,92 @@
+"""What keeps the loop punctual: no garbage collection, and, where the system permits it, priority, locked memory and a core."""
+
+import ctypes
+import gc
+import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+
+FIFO_PRIORITY = 80  # of 1 to 99; below the kernel's own threads for interrupts on most systems (50) it would wait for them
+_MCL_CURRENT, _MCL_FUTURE = 1, 2  # sys/mman.h
+
+
+@dataclass(slots=True)
+class Punctual:
+    """What was granted, and what was refused and why."""
+
+    granted: list[str] = field(default_factory=list)
+    refused: list[str] = field(default_factory=list)
+
+
+@contextmanager
+def punctual(priority: bool) -> Iterator[Punctual]:
+    """Everything collected, frozen and collection off while inside; with `priority` the rest is asked for as well.
+
+    Priority, memory, affinity and collection are as before afterwards; only SCHED_RESET_ON_FORK stays where the system does
+    not let it go (sched(7)). What the system refuses is told and does no harm.
+    """
+    found = Punctual()
+    scheduler, affinity = os.sched_getscheduler(0), os.sched_getaffinity(0)
+    parameters = os.sched_getparam(0)
+    collecting = gc.isenabled()
+    gc.collect()
+    gc.freeze()
+    gc.disable()
+    try:
+        if priority:
+            _ask(found, "SCHED_FIFO", _fifo)
+            _ask(found, "mlockall", _lock_memory)
+            _ask(found, "affinity", _take_core)
+        yield found
+    finally:
+        if "SCHED_FIFO" in found.granted:
+            _give_back(scheduler, parameters)
+        if "mlockall" in found.granted:
+            ctypes.CDLL(None).munlockall()
+        if "affinity" in found.granted:
+            with suppress(OSError):  # as may be when all its cores have gone meanwhile
+                os.sched_setaffinity(0, affinity)
+        gc.unfreeze()
+        if collecting:
+            gc.enable()
+
+
+def collections() -> int:
+    """Garbage collections of this process up to now."""
+    return sum(generation["collections"] for generation in gc.get_stats())
+
+
+def _ask(found: Punctual, name: str, what: Callable[[], None]) -> None:
+    try:
+        what()
+    except OSError as error:
+        found.refused.append(f"{name}: {error.strerror or error}")
+    else:
+        found.granted.append(name)
+
+
+def _fifo() -> None:
+    os.sched_setscheduler(0, os.SCHED_FIFO | os.SCHED_RESET_ON_FORK, os.sched_param(FIFO_PRIORITY))
+
+
+def _give_back(scheduler: int, parameters: os.sched_param) -> None:
+    try:
+        os.sched_setscheduler(0, scheduler, parameters)
+    except OSError:
+        with suppress(OSError):
+            os.sched_setscheduler(0, scheduler | os.SCHED_RESET_ON_FORK, parameters)
+
+
+def _lock_memory() -> None:
+    if ctypes.CDLL(None, use_errno=True).mlockall(_MCL_CURRENT | _MCL_FUTURE):
+        number = ctypes.get_errno()
+        raise OSError(number, os.strerror(number))
+
+
+def _take_core() -> None:
+    """The last core: interrupts and newcomers tend to the first ones."""
+    cores = os.sched_getaffinity(0)
+    if len(cores) < 2:
+        raise OSError(0, "there is only one core")
+    os.sched_setaffinity(0, {max(cores)})

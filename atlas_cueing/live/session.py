@@ -1,0 +1,173 @@
+"""A live run from a scenario to a finished log: everything put together, run, and taken apart again."""
+
+import time
+from collections.abc import Sequence
+from contextlib import ExitStack, closing
+from dataclasses import asdict, dataclass, field
+from importlib.metadata import version
+from pathlib import Path
+
+from ..errors import InputError
+from ..recording import LiveWriter, McapRecorder, Ring, live_ring
+from ..recording.buttons import Buttons
+from ..scenario import Evaluation, Scenario, build, evaluate
+from .clock import MonotonicClock
+from .conductor import Conductor, Wishes
+from .ending import ending
+from .guard import Guard
+from .loop import Drives, Loop
+from .opening import open_source
+from .punctual import Punctual, collections, punctual
+from .recorder_process import RecorderProcess
+from .ride import Ride, no_vehicle
+from .source import Source
+
+RATES = (100.0, 1000.0)  # Hz, lowest and highest of the loop
+DEFAULT_RATE = 500.0  # Hz
+RING_SECONDS = 10.0  # that the recorder may be held up without a loss
+MOST_EVALUATED = 600_000  # ticks; the figures of a longer run are left to review (20 minutes at 500 Hz, some 400 MB)
+_WARM_UP = 200  # ticks flown for nothing: first calls are slow
+
+
+@dataclass(frozen=True, slots=True)
+class LiveOptions:
+    """How to run: loop rate in Hz, duration in s until parking; `attended` runs wait for their operator's buttons.
+
+    priority: ask the system for SCHED_FIFO, locked memory and a core of its own. announce: tell changes of state on stderr.
+    """
+
+    rate: float = DEFAULT_RATE
+    duration: float = float("inf")
+    attended: bool = False
+    engage: bool = True
+    priority: bool = False
+    announce: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class LiveResult:
+    """What came of a live run; `result` ok, vehicle_failed, input_lost, fault, stopped or recording_failed."""
+
+    result: str
+    reason: str
+    log: Path
+    ticks: int
+    duration: float
+    faults: int
+    dropped: int
+    lost: int
+    timing: dict[str, float]
+    punctual: Punctual
+    evaluation: Evaluation = field(default_factory=Evaluation)
+
+    @property
+    def clean(self) -> bool:
+        """Nothing failed and every limit was kept."""
+        return self.result == "ok" and not self.evaluation.violations
+
+    def to_json(self) -> dict[str, object]:
+        """Everything by name, the unit in the name."""
+        return {
+            "result": self.result,
+            "reason": self.reason,
+            "log": str(self.log),
+            "ticks": self.ticks,
+            "duration_s": self.duration,
+            "faults": self.faults,
+            "dropped_samples": self.dropped,
+            "messages_not_recorded": self.lost,
+            "timing": self.timing,
+            "realtime": asdict(self.punctual),
+            "violations": list(self.evaluation.violations),
+            "metrics": self.evaluation.metrics,
+            "limit_use": self.evaluation.limit_use,
+        }
+
+
+class LiveSession:
+    """One live run. Followers of `ring`, and whoever presses `buttons`, have to be forked between `__init__` and `run`."""
+
+    def __init__(self, scenario: Scenario, log: Path, options: LiveOptions) -> None:
+        """Load everything. Raises InputError (nothing was written) when the scenario cannot fly live or at that rate."""
+        if not RATES[0] <= options.rate <= RATES[1]:
+            raise InputError(f"--rate {options.rate:g} Hz, allowed: {RATES[0]:g} <= rate <= {RATES[1]:g}")
+        self._scenario, self._log, self._options = scenario, log, options
+        self._dt = 1.0 / options.rate
+        self._pipeline = build(scenario, self._dt)
+        self._source: Source = open_source(scenario)
+        self.ring: Ring = live_ring(RING_SECONDS, options.rate)
+        self.buttons = Buttons()
+        self.started_ns = time.time_ns()  # of log times: wall clock at the loop's start, to some tenths of a second
+
+    def run(self, drives: Sequence[Drives] = ()) -> LiveResult:
+        """Fly until the run is over, and finish the log."""
+        with ExitStack() as stack:
+            stack.enter_context(closing(self._source))
+            signals = stack.enter_context(ending())
+            recorder = RecorderProcess(self.ring, self._recorder(), announce=self._options.announce)
+            asked = Wishes(self.buttons.edges, signals.asked, self._options.duration, self._options.attended)
+            conductor = self._conductor(asked)
+            writer = LiveWriter(self.ring)
+            loop = Loop(self._dt, MonotonicClock(), conductor, [writer], drives)
+            try:
+                with punctual(self._options.priority) as realtime:
+                    before = collections()
+                    loop.run()
+                    loop.timing.collections = collections() - before
+            finally:
+                writer.end(loop.time, conductor.ended.result, conductor.ended.reason)
+                recorded = recorder.finish()
+        ended = conductor.ended
+        if recorded.result in ("recording_failed", "recorder_died"):
+            ended.because(recorded.result, recorded.reason)
+        return LiveResult(
+            ended.result,
+            ended.reason,
+            self._log,
+            loop.ticks,
+            loop.time,
+            ended.faults,
+            ended.dropped,
+            recorded.lost,
+            loop.timing.to_json(),
+            realtime,
+            self._evaluation(loop.ticks),
+        )
+
+    def _conductor(self, wishes: Wishes) -> Conductor:
+        platform = self._scenario.platform
+        limits = platform.stage_motion_limits()
+        self._warm_up()
+        ride = Ride(lambda: build(self._scenario, self._dt), platform.geometry().sphere_from_wheels, limits.travel, self._dt)
+        guard = Guard(self._dt, platform.wheel_speed_limits(), limits)
+        conductor = Conductor(ride, guard, self._source, wishes)
+        if self._options.engage:
+            conductor.engage()
+        return conductor
+
+    def _warm_up(self) -> None:
+        """Fly a pipeline of its own through the first state, so that no first call falls into a tick."""
+        for k in range(_WARM_UP):
+            self._pipeline.step(no_vehicle(k * self._dt))
+
+    def _recorder(self) -> McapRecorder:
+        scenario = self._scenario
+        return McapRecorder(
+            self._log,
+            head_S=scenario.platform.head_S,
+            metadata=self._metadata(),
+            attachments=scenario.attachments(),
+            skip_topics=scenario.file.recording.skip,
+            started_ns=self.started_ns,
+        )
+
+    def _metadata(self) -> dict[str, str]:
+        scenario = self._scenario
+        versions = {f"{name}_version": version(name) for name in ("atlas_cueing", "jsbsim", "ruckig")}
+        names = {"scenario": scenario.name, "method": scenario.file.cueing.method, "platform": scenario.platform.name}
+        return {**names, **versions, "live": "true", "rate_hz": f"{self._options.rate:g}"}
+
+    def _evaluation(self, ticks: int) -> Evaluation:
+        if ticks > MOST_EVALUATED or not self._log.exists():
+            return Evaluation()
+        return evaluate(self._log, self._scenario.platform)

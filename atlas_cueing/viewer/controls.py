@@ -1,0 +1,77 @@
+"""State of a live run in words, and the operator's buttons."""
+
+from collections.abc import Callable, Collection, Mapping
+from html import escape
+from typing import TYPE_CHECKING, Literal
+
+if TYPE_CHECKING:
+    from viser import GuiApi
+
+ENDED = "ended"
+_BUTTONS: tuple[tuple[str, Literal["green", "yellow", "orange", "gray"], str], ...] = (
+    ("engage", "green", "Take the platform from rest to the vehicle's motion"),
+    ("hold", "yellow", "Bring the platform to a standstill where it is"),
+    ("park", "orange", "Bring the platform to its rest position"),
+    ("reset", "gray", "Leave a fault behind"),
+)
+_COLOURS = {"running": "#00795a", "fault_stopping": "#b3261e", "stopped": "#b3261e", "parked": "#5b6470", ENDED: "#5b6470"}
+_OTHER = "#b36b00"  # a state on the way to another
+_TABLE = '<table style="width:calc(100% - 28px);margin:6px 14px;font-size:14px;font-variant-numeric:tabular-nums">{}</table>'
+_ROW = '<tr><td style="color:#5b6470;padding-right:14px">{}</td><td style="text-align:right">{}</td></tr>'
+
+
+class Controls:
+    """The panel. A press goes to `press` if the state allows it, and is confirmed in the panel."""
+
+    def __init__(
+        self, gui: "GuiApi", press: Callable[[str], object], allowed: Mapping[str, Collection[str]], names: Collection[str]
+    ) -> None:
+        """`allowed` gives the buttons that do something in a state; a button that no state allows does nothing."""
+        self._press, self._allowed = press, allowed
+        self._state, self._time = "", 0.0
+        self._head = gui.add_html("")
+        self._buttons = {name: gui.add_button(name.capitalize(), color=c, hint=h) for name, c, h in _BUTTONS if name in names}
+        for name, button in self._buttons.items():
+            button.on_click(self._clicked(name))
+        self._note = gui.add_html("")
+        self._figures = gui.add_html("")
+        self.say("waiting", "for the loop to begin")
+
+    def say(self, state: str, reason: str) -> None:
+        """Show a state, and why it came; buttons follow."""
+        self._state = state
+        colour = _COLOURS.get(state, _OTHER)
+        self._head.content = (
+            f'<div style="background:{colour};color:#fff;border-radius:6px;margin:8px 10px;padding:10px 14px">'
+            f'<div id="state" style="font-size:26px;font-weight:700">{escape(state.replace("_", " "))}</div>'
+            f'<div id="reason" style="font-size:13px;min-height:1.3em">{escape(reason)}</div></div>'
+        )
+        for name, button in self._buttons.items():
+            button.disabled = name not in self._allowed.get(state, ())
+
+    def count(self, time: float, missed: float, late: float, cost: float, age: float) -> None:
+        """Show the figures of a tick: times in s."""
+        self._time = time
+        rows = (
+            ("time", f"{time:.1f} s"),
+            ("missed deadlines", f"{missed:.0f}"),
+            ("late", f"{1e3 * late:.2f} ms"),
+            ("cost of a tick", f"{1e3 * cost:.2f} ms"),
+            ("age of the input", f"{1e3 * age:.0f} ms"),
+        )
+        table = "".join(_ROW.format(*row) for row in rows)
+        self._figures.content = _TABLE.format(table)
+
+    def _clicked(self, name: str) -> Callable[[object], None]:
+        return lambda _: self.click(name)
+
+    def click(self, name: str) -> None:
+        """As if the button had been pressed; one that has been switched off since is told of and goes no further."""
+        if name in self._allowed.get(self._state, ()):
+            self._press(name)
+            note = f"{name} asked at {self._time:.1f} s"
+        else:
+            note = f"{name} does nothing when {self._state.replace('_', ' ')}"
+        self._note.content = (
+            f'<div id="note" style="margin:4px 14px;font-size:13px;color:#2c3440;min-height:1.4em">{escape(note)}</div>'
+        )

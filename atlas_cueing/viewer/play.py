@@ -1,0 +1,142 @@
+"""A log in the live page's scene, with a play bar."""
+
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..evaluation import Flight
+from ..scenario import Platform
+from .plots import Plots, Traces
+from .recorded import RecordedMotion
+from .scene import KEY, Scene
+from .server import check_viser, close_server, open_server, url_of
+
+if TYPE_CHECKING:
+    from viser import ViserServer
+
+_REFRESH = 0.04  # s
+_PLOT_EVERY = 5  # refreshes
+SPAN, STEP = 20.0, 0.05  # s; of the plots, and from point to point
+_SPEEDS = ("¼", "½", "1", "2", "4")
+_TIMES = dict(zip(_SPEEDS, (0.25, 0.5, 1.0, 2.0, 4.0), strict=True))
+
+
+class PlayHead:
+    """Where the player is between `start` and `end` (s)."""
+
+    def __init__(self, start: float, end: float) -> None:
+        self.start, self.end, self.at = start, end, start
+        self.playing, self.speed = True, 1.0
+
+    def advance(self, elapsed: float) -> None:
+        """Go on by `elapsed` seconds of the clock on the wall; stop at the end."""
+        if self.playing:
+            self.at = min(self.end, self.at + self.speed * elapsed)
+            self.playing = self.at < self.end
+
+    def toggle(self) -> None:
+        """Play or pause; from the end, play again from the start."""
+        if not self.playing and self.at >= self.end:
+            self.at = self.start
+        self.playing = not self.playing
+
+    def run_at(self, speed: float) -> None:
+        """Seconds of the flight in one second."""
+        self.speed = speed
+
+    def seek(self, at: float) -> None:
+        """Go to a time (s); whether it plays stays as it is."""
+        self.at = min(max(at, self.start), self.end)
+
+
+class PlayPage:
+    """Scene, play bar and plots of a log."""
+
+    def __init__(self, server: "ViserServer", platform: Platform, flight: Flight) -> None:
+        self._flight, self._motion = flight, RecordedMotion(flight)
+        self._points = thinned(flight.time)
+        self.head = PlayHead(float(flight.time[0]), float(flight.time[-1]))
+        self._scene = Scene(server, platform)
+        gui = server.gui
+        gui.main_panel.dock_left()
+        gui.main_panel.set_width(270)
+        self._button = gui.add_button("Pause", hint="Play or pause")
+        length = max(self.head.end - self.head.start, STEP)
+        self._bar: Any = gui.add_slider(
+            "time, s", self.head.start, self.head.start + length, step=STEP, initial_value=self.head.start
+        )
+        speed: Any = gui.add_button_group("speed", _SPEEDS)
+        self._button.on_click(lambda _: self.head.toggle())
+        self._bar.on_update(lambda event: None if event.client is None else self.head.seek(self._bar.value))
+        speed.on_click(lambda _: self.head.run_at(_TIMES[speed.value]))
+        gui.add_html(KEY)
+        panel = gui.add_panel()
+        with panel.add_tab("Last 20 s"):
+            self._plots = Plots(gui, platform, timing=False)
+        panel.dock_right()
+        panel.set_width(430)
+        self._refreshes = 0
+
+    def refresh(self, elapsed: float) -> None:
+        """Go on by `elapsed` s and draw."""
+        before = self.head.at
+        self.head.advance(elapsed)
+        label = "Pause" if self.head.playing else "Play"
+        if self._button.label != label:
+            self._button.label = label
+        tick = int(np.searchsorted(self._flight.time, self.head.at, side="right")) - 1
+        self._scene.show(self._motion.pose(max(tick, 0)))
+        if self.head.at != before:
+            self._bar.value = self.head.at
+        if self._refreshes % _PLOT_EVERY == 0:
+            self._plots.show(self._window())
+        self._refreshes += 1
+
+    def _window(self) -> Traces:
+        """The SPAN seconds up to now."""
+        time = self._flight.time[self._points]
+        ticks = self._points[(time > self.head.at - SPAN) & (time <= self.head.at)]
+        f = self._flight
+        columns = (f.time, f.vehicle_f_B, f.felt_f, f.vehicle_w_B, f.felt_w, f.wheel_speed, f.motion_p_W)
+        time, pilot_f, felt_f, pilot_w, felt_w, wheel_speed, p_W = (column[ticks] for column in columns)
+        return Traces(time, pilot_f, felt_f, pilot_w, felt_w, wheel_speed, p_W, None)
+
+
+def thinned(time: np.ndarray) -> np.ndarray:
+    """Ticks to plot, about STEP apart."""
+    count = int((time[-1] - time[0]) / STEP) + 1
+    return np.unique(np.searchsorted(time, time[0] + STEP * np.arange(count)).clip(0, len(time) - 1))
+
+
+def play(
+    platform: Platform,
+    flight: Flight,
+    told: Callable[[str], object],
+    *,
+    port: int = 0,
+    title: str | None = None,
+    go_on: Callable[[], bool] = lambda: True,
+) -> None:
+    """Serve a flight at `port` (0 for any free one) until Ctrl-C, or until `go_on` says no.
+
+    `told` is given the page's address. Raises InputError when viser is missing, the port is in use, or there is no motion to
+    show.
+    """
+    check_viser("live")
+    RecordedMotion(flight)
+    server = open_server(port, title)
+    try:
+        page = PlayPage(server, platform, flight)
+        told(url_of(server))
+        last = time.monotonic()
+        while go_on():
+            now = time.monotonic()
+            page.refresh(now - last)
+            last = now
+            time.sleep(_REFRESH)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        close_server(server)

@@ -1,0 +1,30 @@
+"""A flight out of a log, moment by moment."""
+
+import numpy as np
+
+from ..errors import InputError
+from ..evaluation import Flight
+from .scene import Pose
+from .shapes import Array
+
+
+class RecordedMotion:
+    """Poses of a flight. Raises InputError when it has no ticks, or numbers in its motion that are none."""
+
+    def __init__(self, flight: Flight) -> None:
+        if not len(flight.time) or not np.isfinite(np.hstack([flight.motion_q_WS, flight.motion_p_W])).all():
+            raise InputError("no motion to show: the log has no ticks, or numbers that are none")
+        self._flight = flight
+        self._angle = wheel_angles(flight.time, flight.wheel_speed)
+
+    def pose(self, tick: int) -> Pose:
+        """The platform at a tick; a force that is no number is not drawn."""
+        f = self._flight
+        forces = (np.nan_to_num(f.vehicle_f_B[tick]), np.nan_to_num(f.felt_f[tick]))
+        return Pose(f.motion_q_WS[tick], f.motion_p_W[tick], self._angle[tick], *forces)
+
+
+def wheel_angles(time: Array, speed: Array) -> Array:
+    """How far each wheel has turned since the first tick, rad, (n, 3), by trapezoids; one that is no number counts 0."""
+    steps = 0.5 * np.diff(time)[:, None] * (speed[:-1] + speed[1:])
+    return np.concatenate([np.zeros((1, 3)), np.cumsum(np.nan_to_num(steps), axis=0)])

@@ -1,0 +1,87 @@
+"""The platform drawn in space: sphere with its cockpit, wheels, stage. The same for a live run, a log and a replay file."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..rotation import exp, multiply
+from ..scenario import Platform
+from .cabin import draw_cabin
+from .forces import ForceArrow
+from .shapes import Array
+from .stage import Stage, draw_stage
+from .wheels import draw_wheels
+
+if TYPE_CHECKING:
+    from viser import ViserServer
+
+FELT, PILOT = (0, 158, 115), (213, 94, 0)  # colour-blind safe (Okabe & Ito 2008)
+_SKY, _HAZE = (214, 226, 238), (250, 251, 252)  # background, top and bottom
+
+_KEY = '<div style="margin:2px 14px;font-size:13px"><span style="color:rgb{}">&#9650;</span> {}</div>'
+KEY = _KEY.format(FELT, "specific force on the rider") + _KEY.format(PILOT, "on the pilot in the vehicle")
+"""What the arrows are, as HTML."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    """One moment.
+
+    Orientation q_WS, stage position (m, W), angle of each wheel (rad), specific force of pilot and rider (m/s^2, FRD).
+    """
+
+    q_WS: Sequence[float] | Array
+    p_W: Sequence[float] | Array
+    wheel_angle: Sequence[float] | Array
+    vehicle_f: Sequence[float] | Array
+    felt_f: Sequence[float] | Array
+
+    @property
+    def finite(self) -> bool:
+        """Whether it can be drawn."""
+        return all(
+            bool(np.isfinite(part).all()) for part in (self.q_WS, self.p_W, self.wheel_angle, self.vehicle_f, self.felt_f)
+        )
+
+
+class Scene:
+    """The platform in its page; wheel and stage sizes are the platform's, what they stand on is made up."""
+
+    def __init__(self, server: "ViserServer", platform: Platform) -> None:
+        scene, radius = server.scene, platform.sphere.radius_m
+        scene.set_up_direction("+z")
+        scene.set_background_image(_background(), format="png")
+        scene.configure_environment_map(
+            None
+        )  # a picture of a room to light it is large, and the page fades in until it is there
+        scene.add_light_hemisphere("/light", sky_color=(255, 255, 255), ground_color=(200, 190, 180), intensity=2.2)
+        self._stage: Stage = draw_stage(scene, platform)
+        self._wheels = draw_wheels(scene, self._stage.path, platform)
+        self._cabin = draw_cabin(scene, f"{self._stage.path}/cabin", platform)
+        head = f"{self._stage.path}/cabin/head"
+        scene.add_frame(head, show_axes=False, position=platform.head_S)
+        self._pilot = ForceArrow(scene, f"{head}/pilot", radius, PILOT, 0.022)
+        self._felt = ForceArrow(scene, f"{head}/felt", radius, FELT, 0.03)
+        camera, middle = server.initial_camera, 0.5 * self._stage.floor
+        far = 1.08 * max(2.2 * radius - middle, 3.0 * radius)
+        camera.position = (0.95 * far, 1.3 * far, 0.42 * far)
+        camera.look_at = (0.0, 0.0, 0.55 * middle)
+        camera.fov = np.radians(45.0)
+
+    def show(self, pose: Pose) -> None:
+        """Move everything to `pose`, which must be finite."""
+        self._stage.move(pose.p_W)
+        self._cabin.wxyz = np.asarray(pose.q_WS)
+        for (wheel, at_rest), angle in zip(self._wheels, pose.wheel_angle, strict=True):
+            wheel.wxyz = multiply(at_rest, exp((0.0, 0.0, float(angle))))
+        self._pilot.show(pose.vehicle_f)
+        self._felt.show(pose.felt_f)
+
+
+def _background() -> np.ndarray:
+    """A gradient, from the zenith down."""
+    share = np.linspace(0.0, 1.0, 128)[:, None, None]
+    colours = (1.0 - share) * np.array(_SKY) + share * np.array(_HAZE)
+    return np.broadcast_to(colours, (128, 8, 3)).astype(np.uint8)

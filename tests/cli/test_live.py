@@ -1,0 +1,110 @@
+"""The command, in a process of its own. A machine too busy for 100 Hz may make a fault of a run: then the exit status is 1."""
+
+import json
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from time import monotonic, sleep
+
+import pytest
+
+from atlas_cueing.recording import read_log
+
+from .conftest import Command
+
+PROGRAM = Path(sys.executable).with_name("atlas-cueing")
+SCENARIO = """
+name = "short"
+duration_s = 60.0
+[vehicle]
+source = "signal"
+signal = [{ axis = "roll_rate", shape = "sine", amplitude_deg_s = 10.0, frequency_rad_s = 2.0, duration_s = 60.0 }]
+[platform]
+preset = "atlas-2.9m"
+[cueing]
+method = "classical"
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "s.toml").write_text(SCENARIO)
+    return tmp_path
+
+
+def started(folder: Path, *arguments: str) -> subprocess.Popen[str]:
+    """The command, once its loop runs: that is when the log has been begun and a state told."""
+    command = [PROGRAM, "live", "s.toml", "-o", "l.mcap", "--rate", "100", *arguments]
+    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    deadline = monotonic() + 60.0
+    while not (folder / "l.mcap.part").exists():
+        assert process.poll() is None, process.communicate()
+        assert monotonic() < deadline
+        sleep(0.02)
+    sleep(0.5)  # handlers of signals come before the log, the first tick after it
+    return process
+
+
+def test_help_tells_what_it_is(command: Command) -> None:
+    ended = command("live", "--help")
+    assert ended.status == 0
+    assert "--setpoints" in ended.out
+    assert "not a safety device" in " ".join(ended.out.split())
+
+
+@pytest.mark.parametrize("rate", ["99", "1001", "nan"])
+def test_a_rate_out_of_range(command: Command, rate: str) -> None:
+    ended = command("live", "s.toml", "--rate", rate)
+    assert ended.status == 2
+    assert "allowed: 100 <= rate <= 1000" in ended.err
+    assert not list(Path().glob("*.mcap*"))
+
+
+def test_waiting_without_a_view_has_nobody_to_wait_for(command: Command) -> None:
+    ended = command("live", "s.toml", "--wait")
+    assert (ended.status, ended.out) == (2, "")
+    assert "--wait needs --view" in ended.err
+
+
+def test_an_existing_log_is_kept(command: Command) -> None:
+    Path("short.mcap").write_bytes(b"mine")
+    ended = command("live", "s.toml")
+    assert ended.status == 2
+    assert "short.mcap" in ended.err
+    assert Path("short.mcap").read_bytes() == b"mine"
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_a_signal_parks_and_finishes_the_log(folder: Path, number: signal.Signals) -> None:
+    process = started(folder, "--json")
+    begun = monotonic()
+    process.send_signal(number)
+    out, err = process.communicate(timeout=60.0)
+    result = json.loads(out)
+    assert "Traceback" not in err
+    states = [status.state for status in read_log(folder / "l.mcap").statuses]
+    if result["result"] == "ok":
+        assert process.returncode == 0
+        assert states[-1] == "parked"
+        assert monotonic() - begun < 10.0
+    else:
+        assert (process.returncode, result["result"], states[-1]) == (1, "fault", "stopped")
+
+
+def test_a_second_signal_stops_and_the_log_is_whole(folder: Path) -> None:
+    """Engaged after a second and on its way to the cue: parking takes longer than the pause between the two signals."""
+    process = started(folder, "--json")
+    sleep(2.0)
+    process.send_signal(signal.SIGTERM)
+    sleep(0.3)
+    process.send_signal(signal.SIGTERM)
+    out, err = process.communicate(timeout=60.0)
+    assert process.returncode == 1
+    assert "Traceback" not in err
+    result = json.loads(out)
+    assert result["result"] in ("stopped", "fault")
+    log = read_log(folder / "l.mcap")
+    assert log.metadata["result"] == result["result"]
+    assert log.statuses[-1].state == "stopped"
+    assert len(log.column("/motion", "time_s")) == result["ticks"]

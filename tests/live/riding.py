@@ -1,0 +1,58 @@
+"""A live run without a pipeline: ticks with a timing, at a rate, into a ring."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from itertools import count
+from os import WNOHANG, _exit, fork, waitpid
+from pathlib import Path
+from time import monotonic, sleep
+
+from recording.flights import ATTACHMENTS, HEAD, METADATA, tumbling_at
+
+from atlas_cueing.recording import LiveWriter, McapRecorder
+from atlas_cueing.signals import Tick, Timing
+
+STARTED_NS = 1_700_000_000_123_456_789
+
+
+def live_recorder(path: Path) -> McapRecorder:
+    return McapRecorder(path, head_S=HEAD, metadata=METADATA, attachments=ATTACHMENTS, started_ns=STARTED_NS)
+
+
+def live_tick(time: float) -> tuple[Tick, Timing]:
+    """Elapsed time is a little more than time, as after a hiccup."""
+    return tumbling_at(time), Timing(time, time + 0.25, 1e-5, 2e-4, 0.004, 3.0, 2.0)
+
+
+def ride(writer: LiveWriter, rate: float, ticks: int | None = None, told: Callable[[float], None] = lambda _: None) -> None:
+    """Write ticks in real time on an absolute schedule, for ever without a number; `told` hears of each that is written."""
+    start = monotonic()
+    for k in count():
+        if k == ticks:
+            return
+        sleep(max(start + k / rate - monotonic(), 0.0))
+        writer.tick(*live_tick(k / rate))
+        told(k / rate)
+
+
+@contextmanager
+def child(function: Callable[[], None]) -> Iterator[int]:
+    """The process of a forked function; it is reaped, and has to have ended within seconds by then."""
+    pid = fork()
+    if pid == 0:
+        try:
+            function()
+        finally:
+            _exit(0)
+    try:
+        yield pid
+    finally:
+        until(lambda: waitpid(pid, WNOHANG)[0] == pid)
+
+
+def until(what: Callable[[], bool], seconds: float = 10.0) -> None:
+    """Wait for something that has to happen, and soon."""
+    deadline = monotonic() + seconds
+    while not what():
+        assert monotonic() < deadline, f"still waiting after {seconds} s"
+        sleep(0.005)

@@ -1,0 +1,254 @@
+"""A live run without waiting: a clock that is told, a vehicle that fails on demand, and all commands kept."""
+
+import tempfile
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache
+from math import cos, inf, sin
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas_cueing.live.conductor import Conductor, Wishes
+from atlas_cueing.live.guard import Command, Guard
+from atlas_cueing.live.loop import Loop
+from atlas_cueing.live.ride import Ride
+from atlas_cueing.live.source import Intake
+from atlas_cueing.live.states import State
+from atlas_cueing.pipeline import Pipeline
+from atlas_cueing.rotation import IDENTITY, Quat, Vec3, exp, integrate_body, multiply, normalise, scale
+from atlas_cueing.scenario import Scenario, build, load_scenario
+from atlas_cueing.signals import Motion, Tick, Timing, VehicleState
+
+Array = NDArray[np.float64]
+
+ROUNDING = 1.1e-6  # share of a limit that differences over a tick may pass it by
+_FILE = """
+name = "live"
+duration_s = 5.0
+[vehicle]
+source = "signal"
+signal = [{{ axis = "roll_rate", shape = "sine", amplitude_deg_s = 20.0, frequency_rad_s = 2.0, duration_s = 5.0 }}]
+[platform]
+preset = "{platform}"
+"""
+
+
+@cache
+def scenario(platform: str = "atlas-2.9m", *settings: str) -> Scenario:
+    """A scenario on this platform; its own vehicle is not flown."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "live.toml"
+        file.write_text(_FILE.format(platform=platform))
+        return load_scenario(file, settings)
+
+
+class FakeClock:
+    """Time goes on when somebody sleeps, and by `delay` (s) more, if that is set, once."""
+
+    def __init__(self, start: float = 100.0) -> None:
+        self.time, self.delay = start, 0.0
+
+    def now(self) -> float:
+        return self.time
+
+    def sleep_until(self, time: float) -> None:
+        self.time = max(self.time, time) + self.delay
+        self.delay = 0.0
+
+
+class TumblingSource:
+    """A vehicle that turns for ever about an axis that wanders, with every failing of an input on demand.
+
+    quiet: nothing comes from now on. bad: so many samples are refused from now on. jumps: it is somewhere else at the next
+    read. raises: every read does.
+    """
+
+    def __init__(self, dt: float, rate: float = 0.6) -> None:
+        self._dt, self._rate = dt, rate
+        self.q: Quat = IDENTITY
+        self._t = self._newest = -inf
+        self.quiet = self.jumps = self.over = False
+        self.bad, self._row = 0, 0
+        self.raises: Exception | None = None
+        self.pinned = self.closed = 0
+        self.vehicle: VehicleState | None = None
+        self.advanced: list[bool] = []
+
+    def read(self, time: float, advance: bool) -> Intake:
+        if self.raises:
+            raise self.raises
+        assert time > self._t, "times strictly increase"
+        self._t = time
+        self.advanced.append(advance)
+        w = self._w(time)
+        self.q = normalise(integrate_body(self.q, scale(self._dt, w), w, w, self._dt))
+        dropped, jumped = 0, self.jumps
+        if self.jumps:
+            self.q, self.jumps = multiply(self.q, exp((0.9, -2.0, 0.4))), False
+        if self.bad:
+            self.bad, self._row, dropped = self.bad - 1, self._row + 1, 1
+        elif not self.quiet:
+            self._row, self._newest = 0, time
+            self.vehicle = VehicleState(time, self.q, w, (1.5 * sin(time), cos(1.3 * time), -9.8 + sin(2.0 * time)))
+        vehicle = self.vehicle and replace(self.vehicle, time=time)
+        reason = "NaN" if dropped else "reset" if jumped else ""
+        return Intake(vehicle, time - self._newest, dropped, self._row, jumped, self.over, reason)
+
+    def pin(self) -> None:
+        self.pinned += 1
+
+    def close(self) -> None:
+        self.closed += 1
+
+    def _w(self, t: float) -> Vec3:
+        return (self._rate, 0.5 * self._rate * sin(0.7 * t), 0.4 * self._rate * cos(0.9 * t))
+
+
+@dataclass
+class Tape:
+    """An output and a drive that keep everything, in the order in which it came."""
+
+    ticks: list[Tick] = field(default_factory=list)
+    timings: list[Timing] = field(default_factory=list)
+    statuses: list[tuple[float, str, str]] = field(default_factory=list)
+    commands: list[Command] = field(default_factory=list)
+    sent: list[tuple[int, float, float, int]] = field(default_factory=list)
+    order: list[str] = field(default_factory=list)
+
+    def tick(self, tick: Tick, timing: Timing) -> None:
+        self.ticks.append(tick)
+        self.timings.append(timing)
+        self.order.append("tick")
+
+    def status(self, time: float, state: str, reason: str) -> None:
+        self.statuses.append((time, state, reason))
+        self.order.append(state)
+
+    def send(self, sequence: int, time: float, valid_from: float, state: int, command: Command) -> None:
+        self.commands.append(command)
+        self.sent.append((sequence, time, valid_from, state))
+
+
+@dataclass
+class Wanted:
+    """Buttons and signals to come."""
+
+    buttons: list[str] = field(default_factory=list)
+    signals: int = 0
+
+    def edges(self) -> Sequence[str]:
+        pressed, self.buttons = self.buttons, []
+        return pressed
+
+
+class Rig:
+    """Everything of a live run but the real time."""
+
+    def __init__(
+        self,
+        dt: float = 0.01,
+        platform: str = "atlas-2.9m",
+        settings: Iterable[str] = (),
+        *,
+        attended: bool = True,
+        duration: float = inf,
+        rate: float = 0.6,
+    ) -> None:
+        self.dt, self.scenario = dt, scenario(platform, *settings)
+        limits = self.scenario.platform
+        self.wheel_limits, self.stage_limits = limits.wheel_speed_limits(), limits.stage_motion_limits()
+        self.source, self.clock, self.tape, self.wanted = TumblingSource(dt, rate), FakeClock(), Tape(), Wanted()
+        self.ride = Ride(self.pipeline, limits.geometry().sphere_from_wheels, self.stage_limits.travel, dt)
+        self.guard = Guard(dt, self.wheel_limits, self.stage_limits)
+        wishes = Wishes(self.wanted.edges, lambda: self.wanted.signals, duration, attended)
+        self.conductor = Conductor(self.ride, self.guard, self.source, wishes)
+        self.loop = Loop(dt, self.clock, self.conductor, [self.tape], [self.tape])
+        self.start = self.clock.now() + dt
+        self.slot = 0
+
+    def pipeline(self) -> Pipeline:
+        return build(self.scenario, self.dt)
+
+    @property
+    def state(self) -> State:
+        return self.conductor.state
+
+    @property
+    def motion(self) -> Motion:
+        return self.ride.motion
+
+    def tick(self, lateness: float = 0.0, missed_in_a_row: int = 0) -> Command:
+        """One tick without the loop; keeps what comes of it."""
+        self.slot += 1
+        elapsed = self.slot * self.dt
+        tick, command = self.conductor.tick(elapsed, elapsed, lateness, missed_in_a_row)
+        self.tape.tick(tick, Timing(elapsed, elapsed, lateness, 0.0, 0.0, 0.0, self.state.number))
+        self.tape.commands.append(command)
+        for state, reason in self.conductor.changes:
+            self.tape.status(elapsed, state.value, reason)
+        self.conductor.changes.clear()
+        return command
+
+    def fly(self, seconds: float) -> None:
+        for _ in range(round(seconds / self.dt)):
+            self.tick()
+
+    def until(self, what: State | Callable[[], bool], seconds: float) -> float:
+        """Tick until then; how long it took, s. It has to be within `seconds`."""
+        reached = (lambda: self.state is what) if isinstance(what, State) else what
+        for k in range(round(seconds / self.dt) + 1):
+            if reached():
+                return k * self.dt
+            self.tick()
+        raise AssertionError(f"{what} not reached within {seconds} s; {self.state}, {self.tape.statuses[-3:]}")
+
+    def press(self, *names: str) -> None:
+        self.wanted.buttons += names
+
+    def bring_to(self, state: State) -> None:
+        """From the start into a state, by what leads there."""
+        if state is State.PARKED:
+            self.fly(0.1)
+            return
+        self.press("engage")
+        self.until(State.ENGAGING, 0.1)
+        self.until(lambda: self.ride.blending, 2.0)
+        self.fly(2.5)
+        if state is State.ENGAGING:
+            return
+        self.until(State.RUNNING, 6.0)
+        self.fly(1.0)
+        if state in (State.HOLDING, State.PARKING):
+            self.press("hold" if state is State.HOLDING else "park")
+            self.tick()
+        if state is State.PARKING:
+            self.fly(1.6)
+        if state in (State.FAULT_STOPPING, State.STOPPED):
+            self.tick(lateness=0.025)
+        if state is State.STOPPED:
+            self.until(State.STOPPED, 5.0)
+        assert self.state is state
+
+    def excess(self) -> float:
+        """Largest share used of any limit by the commands and their differences, less one; before them it stood still."""
+        return excess(self.dt, self.tape.commands, self)
+
+
+def excess(dt: float, commands: Sequence[Command], rig: Rig) -> float:
+    wheels, stage = rig.wheel_limits, rig.stage_limits
+    w, b = np.array([c.wheel_speed for c in commands]), np.array([c.wheel_acceleration for c in commands])
+    p, v, a = (np.array([getattr(c, name) for c in commands]) for name in ("p_WS_W", "v_WS_W", "a_WS_W"))
+    w, b, v, a = (np.vstack([np.zeros((3, 3)), each]) for each in (w, b, v, a))
+    p = np.vstack([p[:1]] * 3 + [p])
+    shares = [p / stage.travel]
+    for speed, acceleration, limits in ((w, b, wheels), (v, a, stage)):
+        shares += [speed / limits.speed, acceleration / limits.acceleration]
+        shares += [np.diff(speed, axis=0) / dt / limits.acceleration, np.diff(speed, 2, axis=0) / dt**2 / limits.jerk]
+        shares += [np.diff(acceleration, axis=0) / dt / limits.jerk]
+    for order, limit in enumerate((stage.speed, stage.acceleration, stage.jerk), 1):
+        shares.append(np.diff(p, order, axis=0) / dt**order / limit)
+    assert all(np.all(np.isfinite(share)) for share in shares)
+    assert np.all(np.diff([c.time for c in commands]) > 0.0)
+    return float(max(np.max(np.abs(share)) for share in shares)) - 1.0

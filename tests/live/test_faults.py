@@ -1,0 +1,311 @@
+"""Every fault in every state: what follows, no limit broken by any command, an end at rest, and a run that can go on."""
+
+from collections.abc import Callable, Mapping
+from itertools import permutations
+from math import nan
+from random import Random
+
+import pytest
+
+from atlas_cueing.live.ride import AT_HOME
+from atlas_cueing.live.states import State
+from atlas_cueing.rotation import IDENTITY, geodesic
+from atlas_cueing.signals import Motion
+
+from .rig import ROUNDING, Rig
+
+Fault = Callable[[Rig], None]
+
+ALL = frozenset(State)
+FAULTS = frozenset({State.FAULT_STOPPING, State.STOPPED})
+FOLLOWING = frozenset({State.ENGAGING, State.RUNNING})
+QUICK = ("cueing.stage.planner=onset",)  # the stage's other planner, which costs less
+LONGEST_END = 10.0  # s from the wish to stop or park to the end
+
+
+class DefectError(RuntimeError):
+    """What a defect raises."""
+
+
+def quiet(seconds: float) -> Fault:
+    def fault(rig: Rig) -> None:
+        rig.source.quiet = True
+        rig.fly(seconds)
+        rig.source.quiet = False
+
+    return fault
+
+
+def bad_samples(rig: Rig) -> None:
+    rig.source.bad = 3
+    rig.fly(3 * rig.dt)
+
+
+def jump(rig: Rig) -> None:
+    rig.source.jumps = True
+    rig.tick()
+
+
+def missed(rig: Rig) -> None:
+    rig.tick(lateness=0.006, missed_in_a_row=6)
+
+
+def late(rig: Rig) -> None:
+    rig.tick(lateness=0.025)
+
+
+def broken_source(rig: Rig) -> None:
+    """For good: nothing may depend on its coming back."""
+    rig.source.raises = DefectError("source")
+    rig.tick()
+
+
+def broken_cueing(rig: Rig) -> None:
+    once(rig, rig.ride._cueing)
+
+
+def broken_smoothing(rig: Rig) -> None:
+    once(rig, rig.ride._pipeline.smoothing)
+
+
+def once(rig: Rig, part: object) -> None:
+    """One tick with a part that raises."""
+
+    def step(_: object) -> None:
+        raise DefectError(type(part).__name__)
+
+    if part is not None:
+        part.step = step  # type: ignore[attr-defined]
+    rig.tick()
+    if part is not None:
+        del part.step  # type: ignore[attr-defined]
+
+
+def broken_wheels(rig: Rig) -> None:
+    pipeline = rig.ride._pipeline
+    replace_wheels(pipeline, Raising())
+    rig.tick()
+    replace_wheels(rig.ride._pipeline, pipeline_wheels(rig))
+
+
+class Raising:
+    def speeds(self, motion: Motion) -> None:
+        raise DefectError(f"wheels at {motion.time}")
+
+
+def replace_wheels(pipeline: object, wheels: object) -> None:
+    object.__setattr__(pipeline, "wheels", wheels)
+
+
+def pipeline_wheels(rig: Rig) -> object:
+    return rig.pipeline().wheels
+
+
+def illegal(corrupt: Callable[[Motion], Motion]) -> Fault:
+    """One motion that smoothing should never give."""
+
+    def fault(rig: Rig) -> None:
+        smoothing = rig.ride._pipeline.smoothing
+        step = smoothing.step
+        smoothing.step = lambda cue: corrupt(step(cue))  # type: ignore[method-assign]
+        rig.tick()
+        del smoothing.step  # type: ignore[method-assign]
+
+    return fault
+
+
+def shifted(m: Motion) -> Motion:
+    x, y, z = m.p_WS_W
+    return Motion(m.time, m.q_WS, m.w_WS_W, m.alpha_WS_W, (x + 0.01, y, z), m.v_WS_W, m.a_WS_W, m.limited)
+
+
+def jerked(m: Motion) -> Motion:
+    x, y, z = m.w_WS_W
+    return Motion(m.time, m.q_WS, (x + 0.5, y, z), m.alpha_WS_W, m.p_WS_W, m.v_WS_W, m.a_WS_W, m.limited)
+
+
+def no_number(m: Motion) -> Motion:
+    return Motion(m.time, m.q_WS, (nan, nan, nan), m.alpha_WS_W, m.p_WS_W, m.v_WS_W, m.a_WS_W, m.limited)
+
+
+# Which states a fault leaves, and for which; it leaves all others as they are.
+MATRIX: Mapping[str, tuple[Fault, frozenset[State], State]] = {
+    "quiet 50 ms": (quiet(0.05), frozenset(), State.RUNNING),
+    "quiet 150 ms": (quiet(0.15), FOLLOWING, State.HOLDING),
+    "quiet 1.5 s": (quiet(1.5), FOLLOWING | {State.HOLDING}, State.PARKING),
+    "three bad samples": (bad_samples, FOLLOWING, State.HOLDING),
+    "jump": (jump, FOLLOWING, State.HOLDING),
+    "six deadlines": (missed, ALL - FAULTS, State.FAULT_STOPPING),
+    "25 ms late": (late, ALL - FAULTS, State.FAULT_STOPPING),
+    "source raises": (broken_source, ALL - FAULTS, State.FAULT_STOPPING),
+    "cueing raises": (broken_cueing, FOLLOWING, State.FAULT_STOPPING),
+    "smoothing raises": (broken_smoothing, ALL - FAULTS, State.FAULT_STOPPING),
+    "wheels raise": (broken_wheels, ALL - FAULTS, State.FAULT_STOPPING),
+    "stage shifted": (illegal(shifted), ALL - FAULTS, State.FAULT_STOPPING),
+    "sphere jerked": (illegal(jerked), ALL - FAULTS, State.FAULT_STOPPING),
+    "not a number": (illegal(no_number), ALL - FAULTS, State.FAULT_STOPPING),
+}
+LEADS_ON = {State.FAULT_STOPPING: {State.STOPPED}, State.PARKING: {State.PARKED}, State.ENGAGING: {State.RUNNING}}
+
+
+@pytest.mark.parametrize("state", State)
+def test_every_fault_in_every_state(state: State) -> None:
+    """One after the other on one platform, so that each is also the proof that it runs again after the one before."""
+    rig = Rig(0.02, settings=QUICK)
+    for name, (fault, leaves, to) in MATRIX.items():
+        rig.bring_to(state)
+        faults = rig.conductor.ended.faults
+        fault(rig)
+        expected = {to} if state in leaves else {state} | LEADS_ON.get(state, set())
+        assert rig.state in expected, (name, rig.tape.statuses[-3:])
+        assert rig.conductor.ended.faults == faults + (state in leaves and to in FAULTS), name
+        home(rig)
+    engage(rig)
+    assert rig.excess() <= ROUNDING
+
+
+def home(rig: Rig) -> None:
+    """By the operator's hand from any state to rest at home."""
+    if rig.state in FAULTS:
+        rig.until(State.STOPPED, LONGEST_END)
+        at_rest(rig)
+        rig.source.raises = None
+        rig.press("reset")
+    elif rig.state is not State.PARKED:
+        rig.press("park")
+    rig.tick()
+    rig.until(State.PARKED, LONGEST_END)
+    at_rest(rig)
+    assert geodesic(rig.motion.q_WS, IDENTITY) < AT_HOME + ROUNDING
+
+
+def engage(rig: Rig) -> None:
+    """From home to a run that follows the cue."""
+    rig.press("engage")
+    rig.tick()
+    rig.until(State.RUNNING, 8.0)
+    rig.fly(0.3)
+    on_the_cue(rig)
+
+
+def at_rest(rig: Rig) -> None:
+    m = rig.motion
+    assert max(map(abs, (*m.w_WS_W, *m.v_WS_W))) < 1e-3
+    assert max(map(abs, (*m.alpha_WS_W, *m.a_WS_W))) < 1e-2
+
+
+def on_the_cue(rig: Rig) -> None:
+    assert geodesic(rig.motion.q_WS, rig.tape.ticks[-1].cue.q_WS) < 0.02
+
+
+@pytest.mark.parametrize("state", [State.ENGAGING, State.RUNNING])
+@pytest.mark.parametrize("name", ["quiet 150 ms", "three bad samples", "jump"])
+def test_a_hold_by_the_input_ends_by_itself(name: str, state: State) -> None:
+    """At rest after the halt; half a second of good input; then a second or more to the cue."""
+    rig = Rig(settings=QUICK)
+    rig.bring_to(state)
+    held = rig.motion.q_WS
+    MATRIX[name][0](rig)
+    assert rig.state is State.HOLDING
+    halt = rig.until(State.ENGAGING, 3.0)
+    assert halt >= 0.4
+    assert geodesic(rig.motion.q_WS, held) < 0.6  # as far as half of 0.8 s at its rate
+    blend = rig.until(State.RUNNING, 6.0)
+    assert 0.9 <= blend <= 5.0
+    on_the_cue(rig)
+    assert rig.excess() <= ROUNDING
+
+
+def test_a_jump_is_frozen_not_chased() -> None:
+    """From the jump to the end of the hold the rates only fall, for all that the vehicle is far away."""
+    rig = Rig(settings=QUICK)
+    rig.bring_to(State.RUNNING)
+    before = max(map(abs, rig.motion.w_WS_W))
+    jump(rig)
+    begin = len(rig.tape.ticks)
+    rig.until(State.ENGAGING, 3.0)
+    rates = [max(map(abs, tick.motion.w_WS_W)) for tick in rig.tape.ticks[begin:]]
+    assert max(rates) < 1.1 * before
+
+
+@pytest.mark.parametrize("state", State)
+def test_buttons_in_any_order(state: State) -> None:
+    """All in one tick, then one after the other, 0.1 s apart: no order of them is a fault."""
+    rig = Rig(0.02, settings=QUICK)
+    orders = list(permutations(["engage", "hold", "park", "reset"]))
+    for buttons in orders[state.number :: 7]:
+        rig.bring_to(state)
+        rig.press(*buttons)
+        rig.tick()
+        for name in buttons:
+            rig.press(name)
+            rig.fly(0.1)
+        home(rig)
+    assert rig.conductor.ended.faults == (len(orders[state.number :: 7]) if state in FAULTS else 0)
+    engage(rig)
+    assert rig.excess() <= ROUNDING
+
+
+@pytest.mark.parametrize("state", State)
+def test_one_signal_parks(state: State) -> None:
+    rig = Rig(0.02, settings=QUICK, attended=False)
+    rig.bring_to(state)
+    rig.wanted.signals = 1
+    rig.tick()
+    took = rig.until(lambda: rig.conductor.over, LONGEST_END - 1.0)
+    at_rest(rig)
+    assert rig.state is (State.STOPPED if state in FAULTS else State.PARKED)
+    assert rig.conductor.ended.result == ("fault" if state in FAULTS else "ok")
+    assert rig.excess() <= ROUNDING
+    assert took <= LONGEST_END
+
+
+@pytest.mark.parametrize("state", State)
+def test_two_signals_stop_at_once(state: State) -> None:
+    rig = Rig(0.02, settings=QUICK, attended=False)
+    rig.bring_to(state)
+    rig.wanted.signals = 1
+    rig.tick()
+    rig.wanted.signals = 2
+    if not rig.conductor.over:
+        rig.tick()
+        assert rig.state in FAULTS
+    assert rig.until(lambda: rig.conductor.over, 2.0) < 1.0
+    at_rest(rig)
+    expected = {State.PARKED: "ok", State.FAULT_STOPPING: "fault", State.STOPPED: "fault"}
+    assert rig.conductor.ended.result == expected.get(state, "stopped")
+    assert rig.excess() <= ROUNDING
+
+
+def test_parking_from_upside_down_ends_in_time() -> None:
+    """The longest way home there is, with a log to finish behind it."""
+    rig = Rig(0.02, rate=0.9, settings=("cueing.method=attitude", *QUICK))
+    rig.bring_to(State.RUNNING)
+    rig.until(lambda: geodesic(rig.motion.q_WS, IDENTITY) > 3.0, 60.0)
+    rig.wanted.signals = 1
+    assert rig.until(lambda: rig.conductor.over, LONGEST_END) < LONGEST_END - 0.5
+
+
+@pytest.mark.parametrize("rate_hz", [100.0, 500.0, 1000.0])
+@pytest.mark.parametrize("platform", ["atlas-2.9m", "atlas-tabletop", "atlas-orthogonal"])
+def test_a_walk_among_faults(platform: str, rate_hz: float) -> None:
+    rig = walk(platform, rate_hz, 2000, seed=round(rate_hz))
+    assert rig.excess() <= ROUNDING
+
+
+def walk(platform: str, rate_hz: float, ticks: int, seed: int) -> Rig:
+    """Faults, buttons and good spells at random. It has been in every state by the end, or the walk was none."""
+    random, rig = Random(seed), Rig(1.0 / rate_hz, platform, rate=0.3)
+    visited = set()
+    faults = [fault for fault, _, _ in MATRIX.values()]
+    while len(rig.tape.commands) < ticks:
+        visited.add(rig.state)
+        rig.source.raises = None
+        kind = random.random()
+        if kind < 0.15:
+            random.choice(faults)(rig)
+        elif kind < 0.6:
+            rig.press(random.choice(["engage", "reset", "engage", "reset", "hold", "park"]))
+        rig.fly(random.choice([rig.dt, 0.05, 0.5, 1.2]))
+    assert len(visited) >= 3 or ticks < 5000
+    return rig

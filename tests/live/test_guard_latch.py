@@ -1,0 +1,278 @@
+"""When the guard opens, latches and opens again; time; what is no number; limits that make no sense."""
+
+from collections.abc import Callable
+from dataclasses import fields, replace
+from math import inf, nan, nextafter, ulp
+
+import pytest
+
+from atlas_cueing.errors import InputError
+from atlas_cueing.live.guard import Command, Guard
+from atlas_cueing.signals import StageLimits, WheelLimits
+
+from .guard_states import AXES, ROUNDING, STAGE, STANDING, WHEELS, alone, coast, command, guard_at, states
+
+DT = 1.0 / 128.0  # exact, so that times are
+JERK = (100.0, -200.0, 50.0, 20.0, -10.0, 5.0)
+FIELDS = [field.name for field in fields(Command)]
+
+
+def fresh() -> Guard:
+    return Guard(DT, WHEELS, STAGE)
+
+
+def moving(ticks: int, time: float = 0.0) -> Command:
+    """After some ticks of constant jerk on every axis from standstill."""
+    return command(time + ticks * DT, [coast((0.0, 0.0, 0.0), j, ticks * DT) for j in JERK])
+
+
+def underway(ticks: int = 4) -> Guard:
+    guard = fresh()
+    for n in range(ticks + 1):
+        one = moving(n)
+        assert guard.check(one) is one
+    return guard
+
+
+def spoilt(one: Command, field: str, place: int, value: object) -> Command:
+    """One number of the command replaced."""
+    old = getattr(one, field)
+    new = value if field == "time" else tuple(value if k == place else x for k, x in enumerate(old))
+    return replace(one, **{field: new})
+
+
+def test_a_new_guard_stands_open_in_the_centre() -> None:
+    guard = fresh()
+    assert (guard.reason, guard.stopping, guard.standing) == ("", False, True)
+    assert guard.check(STANDING) is STANDING
+
+
+@pytest.mark.parametrize("axis", range(6))
+def test_any_motion_of_any_axis_is_no_standstill(axis: int) -> None:
+    for state in ((0.0, 1e-9, 0.0), (0.0, 0.0, -1e-9)):
+        assert not guard_at(DT, alone(axis, state, 0.0)).standing
+    assert guard_at(DT, alone(axis, (0.5, 0.0, 0.0), 0.0)).standing
+
+
+def test_it_lets_motion_through_and_is_not_standing() -> None:
+    guard = underway()
+    assert not guard.standing
+    assert not guard.stopping
+
+
+def test_the_first_refusal_latches_with_its_reason() -> None:
+    guard = underway()
+    wrong = replace(moving(5), p_WS_W=(0.3, 0.0, 0.0))
+    given = [guard.check(wrong)]
+    reason = guard.reason
+    assert reason.startswith("stage x position by the speed 0.3, allowed: ")
+    assert reason.endswith(f" at {5 * DT} s")
+    given += [guard.check(replace(moving(n), p_WS_W=(0.9, 0.0, 0.0))) for n in range(6, 10)]
+    given += [guard.stop(10 * DT)]
+    assert (guard.reason, guard.stopping) == (reason, True)
+    braked = underway()
+    assert [braked.stop(n * DT) for n in range(5, 11)] == given, "the same stop, whatever it is asked"
+    assert braked.reason == f"no command at {5 * DT} s"
+    assert [one.time for one in given] == [n * DT for n in range(5, 11)]
+
+
+def test_fit_commands_do_not_open_it_again() -> None:
+    guard = underway()
+    guard.stop(5 * DT)
+    while not guard.standing:
+        guard.stop(guard._last.time + DT)
+    held = guard._last
+    for n in range(1, 5):
+        fit = replace(held, time=held.time + n * DT)
+        assert guard.check(fit) == fit
+        assert guard.stopping
+    assert guard.check(replace(fit, time=fit.time + DT, p_WS_W=(0.0, 0.0, 0.0))).p_WS_W == held.p_WS_W
+
+
+def test_a_standing_start_opens_it_again_anywhere_at_any_time() -> None:
+    guard = underway()
+    guard.stop(5 * DT)
+    place = replace(STANDING, time=-7.0, p_WS_W=(-0.9, 0.7, -0.5))
+    guard.start(place)
+    assert (guard.reason, guard.stopping, guard.standing) == ("", False, True)
+    following = replace(place, time=-7.0 + DT)
+    assert guard.check(following) is following
+    guard.check(replace(following, time=-7.0 + 2.0 * DT, wheel_speed=(9.0, 0.0, 0.0)))
+    assert guard.stopping
+    second = guard.stop(-7.0 + 3.0 * DT)
+    assert second == replace(place, time=-7.0 + 3.0 * DT), "the new stop, from its beginning"
+
+
+@pytest.mark.parametrize("axis", range(6))
+@pytest.mark.parametrize("rate", [1e-12, -1e-12, nan])
+def test_a_start_in_motion_is_refused(axis: int, rate: float) -> None:
+    guard = fresh()
+    for state in ((0.0, rate, 0.0), (0.0, 0.0, rate)):
+        with pytest.raises(InputError, match=r"standstill inside the travel: a rate .*, allowed: 0 <= value <= 0$"):
+            guard.start(alone(axis, state, 0.0))
+
+
+@pytest.mark.parametrize("axis", [3, 4, 5])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_start_outside_the_travel_is_refused(axis: int, sign: float) -> None:
+    end = ROUNDING * STAGE.travel[axis - 3] - STAGE.acceleration[axis - 3] * DT * DT / 8.0
+    fresh().start(alone(axis, (sign * end, 0.0, 0.0), 0.0))
+    with pytest.raises(InputError, match=f"{AXES[axis]} position"):
+        fresh().start(alone(axis, (sign * (end + 1e-12), 0.0, 0.0), 0.0))
+
+
+@pytest.mark.parametrize("time", [nan, inf, nextafter(1e10, inf), nextafter(-1e10, -inf)])
+def test_a_start_at_no_time_is_refused(time: float) -> None:
+    guard = fresh()
+    with pytest.raises(InputError, match=r"time .* allowed: -10000000000 <= value <= 10000000000"):
+        guard.start(replace(STANDING, time=time))
+    assert guard.check(replace(STANDING, time=time)) == replace(STANDING, time=DT)
+    assert guard.reason.startswith("time ")
+
+
+@pytest.mark.parametrize("time", [1e10, -1e10, 0.0, 1.7e9])
+def test_the_first_command_may_have_any_time(time: float) -> None:
+    guard, first = fresh(), replace(STANDING, time=time)
+    assert guard.check(first) is first
+    guard.start(first)
+    assert guard.stop(time) == replace(first, time=time + DT)
+
+
+@pytest.mark.parametrize("field", FIELDS)
+@pytest.mark.parametrize("value", [nan, inf, -inf, 1e308, -1e308])
+def test_what_is_no_number_stops_it(field: str, value: float) -> None:
+    for place in range(1 if field == "time" else 3):
+        guard = underway()
+        given = guard.check(spoilt(moving(5), field, place, value))
+        assert given == underway().stop(5 * DT)
+        assert guard.stopping
+
+
+@pytest.mark.parametrize("field", FIELDS[1:])
+def test_what_is_no_command_stops_it(field: str) -> None:
+    """Numbers of the wrong kind, one too few, one too many."""
+    fit = getattr(moving(5), field)
+    for wrong in ((), fit[:2], (*fit, 0.0), None, (None, *fit[1:]), (*fit[:2], "0.0")):
+        guard = underway()
+        assert guard.check(replace(moving(5), **{field: wrong})) == underway().stop(5 * DT)
+        assert guard.reason.startswith("no command at all: ")
+        assert guard.reason.endswith(f", at {5 * DT} s")
+
+
+@pytest.mark.parametrize("together", [FIELDS[1:3], FIELDS[3:]])
+@pytest.mark.parametrize("numbers", [2, 4])
+def test_as_many_numbers_as_wheels_and_axes(together: list[str], numbers: int) -> None:
+    """Also when speed and acceleration agree in having too few or too many."""
+    guard, fit = underway(), moving(5)
+    wrong: dict[str, object] = {field: (*getattr(fit, field), 0.0)[:numbers] for field in together}
+    assert guard.check(replace(fit, **wrong)) == underway().stop(5 * DT)
+    assert guard.reason.startswith("no command at all: ")
+
+
+@pytest.mark.parametrize("numbers", [2, 4])
+def test_a_start_has_three_positions(numbers: int) -> None:
+    wrong: dict[str, object] = {"p_WS_W": (0.0,) * numbers}
+    with pytest.raises(ValueError, match="zip"):
+        fresh().start(replace(STANDING, **wrong))
+
+
+def test_a_number_that_overflows_stops_it() -> None:
+    guard = underway()
+    assert guard.check(spoilt(moving(5), "wheel_speed", 0, 10**400)) == underway().stop(5 * DT)
+
+
+@pytest.mark.parametrize(
+    ("late", "fit"),
+    [
+        (lambda _: 0.0, False),
+        (lambda _: -1.0, False),
+        (lambda _: 0.5 * DT, False),
+        (lambda _: DT, True),
+        (lambda _: nextafter(DT * (1.0 - 1e-6), 0.0), False),
+        (lambda _: DT * (1.0 - 1e-6), True),
+        (lambda _: 3.0 * DT, True),
+        (lambda _: DT + 0.1, True),
+        (lambda _: nextafter(DT + 0.1, inf), False),
+    ],
+)
+def test_a_late_command_is_fit_and_an_early_one_is_not(late: Callable[[float], float], fit: bool) -> None:
+    guard = fresh()
+    guard.start(STANDING)
+    one = replace(moving(1), time=late(0.0))
+    given = guard.check(one)
+    assert (given is one) == fit, guard.reason
+    if not fit:
+        assert given == replace(STANDING, time=DT), "a time that cannot be is not put out"
+        assert guard.reason.startswith("time ")
+
+
+@pytest.mark.parametrize(("ulps", "fit"), [(0, True), (-2, True), (-3, False), (-4, False)])
+def test_a_time_may_be_early_by_its_rounding(ulps: int, fit: bool) -> None:
+    """A clock of 2^30 s, 1 January 2004, has steps of 0.24 us: 30 times what a tick of 8 ms may be early otherwise."""
+    start = 2.0**30
+    guard = fresh()
+    guard.start(replace(STANDING, time=start))
+    one = moving(1, start)
+    one = replace(one, time=one.time + ulps * ulp(start))
+    assert (guard.check(one) is one) == fit
+
+
+@pytest.mark.parametrize("time", [nan, inf, -5.0, 4 * DT, 4 * DT + 0.2, 1e300])
+def test_the_stop_keeps_time_when_it_is_given_none(time: float) -> None:
+    guard = underway()
+    assert [guard.stop(time).time for _ in range(3)] == pytest.approx([5 * DT, 6 * DT, 7 * DT], abs=1e-12)
+
+
+def test_a_late_tick_of_the_stop_is_its_next_one() -> None:
+    late, prompt = underway(), underway()
+    for n in range(5, 9):
+        assert states(late.stop(2 * n * DT)) == states(prompt.stop(n * DT))
+        assert late._last.time == 2 * n * DT
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, inf, nan])
+@pytest.mark.parametrize("place", range(3))
+def test_limits_that_make_no_sense_are_refused(bad: float, place: int) -> None:
+    with pytest.raises(InputError, match=r"wheel 1 tick .*, allowed: 0 < value < inf"):
+        Guard(bad, WHEELS, STAGE)
+    for quantity in ("speed", "acceleration", "jerk"):
+        wheels: dict[str, object] = {quantity: spread(getattr(WHEELS, quantity), place, bad)}
+        with pytest.raises(InputError, match=f"{AXES[place]} {quantity} {bad:g}, allowed: 0 < value < inf"):
+            Guard(DT, replace(WHEELS, **wheels), STAGE)
+        stage: dict[str, object] = {quantity: spread(getattr(STAGE, quantity), place, bad)}
+        with pytest.raises(InputError, match=f"{AXES[3 + place]} {quantity} {bad:g}, allowed: 0 < value < inf"):
+            Guard(DT, WHEELS, replace(STAGE, **stage))
+
+
+@pytest.mark.parametrize("place", range(3))
+def test_a_travel_without_room_between_two_ticks_is_refused(place: int) -> None:
+    unused = STAGE.acceleration[place] * DT * DT / 8.0
+    for bad in (0.0, -1.0, nan, inf, unused):
+        with pytest.raises(InputError, match=f"{AXES[3 + place]} travel .* m, allowed: {unused:.3g} < value < inf"):
+            Guard(DT, WHEELS, replace(STAGE, travel=spread(STAGE.travel, place, bad)))
+    Guard(DT, WHEELS, replace(STAGE, travel=spread(STAGE.travel, place, nextafter(unused, inf))))
+
+
+@pytest.mark.parametrize("name", ["speed", "acceleration", "jerk", "travel"])
+def test_three_limits_each_are_needed(name: str) -> None:
+    four: dict[str, object] = {name: (1.0,) * 4}
+    with pytest.raises(ValueError, match="zip"):
+        Guard(DT, WHEELS, replace(STAGE, **four))
+    if name != "travel":
+        with pytest.raises(ValueError, match="zip"):
+            Guard(DT, replace(WHEELS, **four), STAGE)
+
+
+def spread(three: tuple[float, ...], place: int, value: float) -> tuple[float, ...]:
+    return tuple(value if k == place else x for k, x in enumerate(three))
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("inside", [True, False])
+def test_positions_may_be_rounded(sign: float, inside: bool) -> None:
+    """On a million metres of rail one step of a double is a tenth of a nanometre, far more than this jerk moves in a tick."""
+    travel, jerk = 1e6, 1e-6
+    guard = Guard(DT, WheelLimits(*((1.0,) * 3,) * 3), StageLimits((travel,) * 3, *((1.0,) * 3,) * 2, (jerk,) * 3))
+    step = 4.0 * ulp(travel) * (1.0 - 1e-6 if inside else 1.0 + 1e-3)
+    moved = replace(STANDING, time=DT, p_WS_W=(sign * step, 0.0, 0.0))
+    assert (guard.check(moved) is moved) == inside, guard.reason

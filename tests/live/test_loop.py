@@ -1,0 +1,156 @@
+"""The schedule against a clock that is told: absolute, missed deadlines counted and left out, everything in order."""
+
+from collections.abc import Callable
+from itertools import pairwise
+
+import pytest
+
+from atlas_cueing.live.loop import LEAD
+from atlas_cueing.live.states import State
+
+from .rig import Rig
+
+DT = 0.01
+
+
+def run(delays: dict[int, float], ticks: int = 60, costs: dict[int, float] | None = None) -> Rig:
+    """A loop whose wait before tick k (from 1) takes delays[k] s too long, and whose tick k takes costs[k] s; then it ends."""
+    rig = Rig(DT, duration=1e9)
+    costs = costs or {}
+    wait, tick = rig.clock.sleep_until, rig.conductor.tick
+    begun = [0]
+
+    def sleep_until(time: float) -> None:
+        begun[0] += 1
+        rig.clock.delay = delays.get(begun[0], 0.0)
+        wait(time)
+
+    def costly(*arguments: float) -> object:
+        rig.clock.time += costs.get(begun[0], 0.0)
+        if begun[0] == ticks:
+            rig.wanted.signals = 1
+        return tick(*arguments)  # type: ignore[arg-type]
+
+    rig.clock.sleep_until = sleep_until  # type: ignore[method-assign]
+    rig.conductor.tick = costly  # type: ignore[assignment, method-assign]
+    rig.loop.run()
+    return rig
+
+
+def test_a_punctual_run() -> None:
+    rig = run({})
+    timings = rig.tape.timings
+    assert [t.elapsed for t in timings] == pytest.approx([k * DT for k in range(60)], abs=1e-9)
+    assert [t.time for t in timings] == [(k + 1) * DT for k in range(60)]
+    assert {(t.missed, t.cost) for t in timings} == {(0, 0.0)}
+    assert max(abs(t.lateness) for t in timings) < 1e-9
+    assert rig.loop.ticks == 60
+    assert rig.loop.time == 60 * DT
+
+
+def test_the_schedule_is_absolute() -> None:
+    """Half a period late, ten times: no deadline moves, and the late ticks are told as late."""
+    rig = run(dict.fromkeys(range(10, 20), 0.005))
+    timings = rig.tape.timings
+    assert [t.elapsed for t in timings] == pytest.approx([k * DT for k in range(60)], abs=1e-9)
+    assert [round(t.lateness, 9) for t in timings] == [0.005 if 10 <= k < 20 else 0.0 for k in range(1, 61)]
+    assert rig.loop.timing.missed == 0
+    assert rig.loop.timing.lateness.maximum == pytest.approx(0.005)
+
+
+def test_missed_deadlines_are_counted_and_left_out() -> None:
+    """1.5 periods late at one tick: the deadline in between has no tick, and the platform's own time stays even."""
+    rig = run({20: 0.015})
+    timings = rig.tape.timings
+    assert timings[19].lateness == pytest.approx(0.015)
+    assert [t.missed for t in timings] == [0] * 19 + [1] * 41
+    steps = [round((after.elapsed - before.elapsed) / DT) for before, after in pairwise(timings)]
+    assert steps == [1] * 19 + [2] + [1] * 39
+    assert [t.time for t in timings] == [(k + 1) * DT for k in range(60)]
+    assert rig.conductor.ended.faults == 0
+
+
+def test_a_tick_that_takes_too_long_is_not_made_up_for() -> None:
+    rig = run({}, costs={20: 0.025})
+    timings = rig.tape.timings
+    assert timings[19].cost == pytest.approx(0.025)
+    assert rig.loop.timing.cost.maximum == pytest.approx(0.025)
+    assert timings[20].lateness == pytest.approx(0.015)
+    assert [t.missed for t in timings][19:23] == [0, 1, 1, 1]
+    assert timings[-1].elapsed == pytest.approx(60 * DT, abs=1e-9)
+
+
+def test_more_than_20_ms_late_is_a_fault() -> None:
+    rig = run({20: 0.0199, 40: 0.0201})
+    assert rig.conductor.ended.result == "fault"
+    (time, _, reason), *_ = [status for status in rig.tape.statuses if status[1] == "fault_stopping"]
+    assert time == pytest.approx(40 * DT)
+    assert reason == "a tick began 20.1 ms late, allowed: at most 20 ms"
+
+
+def test_five_missed_in_a_row_are_borne_and_six_are_not() -> None:
+    """One deadline missed in each of five ticks, then a punctual one; and then six."""
+    late = dict.fromkeys(range(10, 15), 0.012) | dict.fromkeys(range(30, 36), 0.012)
+    rig = run(late)
+    assert rig.loop.timing.longest_row == 6
+    (fault,) = [status for status in rig.tape.statuses if status[1] == "fault_stopping"]
+    assert fault[0] == pytest.approx(35 * DT)
+    assert fault[2] == "6 deadlines missed in a row, allowed: at most 5"
+
+
+def test_states_are_told_before_their_first_tick() -> None:
+    rig = Rig(DT)
+    rig.conductor.engage()
+    events: dict[int, Callable[[], None]] = {
+        200: lambda: setattr(rig.source, "quiet", True),
+        240: lambda: setattr(rig.source, "quiet", False),
+        700: lambda: setattr(rig.wanted, "signals", 1),
+    }
+    wait = rig.clock.sleep_until
+
+    def sleep_until(time: float) -> None:
+        events.get(len(rig.tape.ticks), lambda: None)()
+        wait(time)
+
+    rig.clock.sleep_until = sleep_until  # type: ignore[method-assign]
+    rig.loop.run()
+    told = [(time, state) for time, state, _ in rig.tape.statuses]
+    assert [state for _, state in told][:6] == ["parked", "engaging", "holding", "engaging", "running", "parking"]
+    assert told[-1][1] == "parked"
+    names = [state.value for state in State]
+    current, ticks = "", iter(rig.tape.timings)
+    for what in rig.tape.order:
+        if what != "tick":
+            current = what
+            continue
+        timing = next(ticks)
+        assert names[int(timing.state)] == current
+        assert not [t for t, state in told if t > timing.time and state == current and told.index((t, state)) == 0]
+
+
+def test_drives_hear_every_tick_ahead_of_time() -> None:
+    rig = run({20: 0.015})
+    timings = rig.tape.timings
+    assert [sequence for sequence, *_ in rig.tape.sent] == list(range(1, 61))
+    for (_, time, valid_from, state), timing in zip(rig.tape.sent, timings, strict=True):
+        assert time == timing.time
+        assert valid_from == pytest.approx(rig.start + timing.elapsed + LEAD)
+        assert state == timing.state
+    assert [command.time for command in rig.tape.commands] == [timing.time for timing in timings]
+
+
+def test_the_age_of_the_input_is_recorded_and_none_is_minus_one() -> None:
+    rig = Rig(DT)
+    rig.source.quiet = True
+    events = {5: False, 9: True}
+    wait = rig.clock.sleep_until
+
+    def sleep_until(time: float) -> None:
+        rig.source.quiet = events.get(len(rig.tape.ticks), rig.source.quiet)
+        rig.wanted.signals = int(len(rig.tape.ticks) > 12)
+        wait(time)
+
+    rig.clock.sleep_until = sleep_until  # type: ignore[method-assign]
+    rig.loop.run()
+    ages = [timing.input_age for timing in rig.tape.timings]
+    assert ages[:10] == pytest.approx([-1.0] * 5 + [0.0] * 4 + [DT])
