@@ -45,7 +45,7 @@ def _flown(order: Order) -> Record:
         with TemporaryDirectory(prefix="atlas_cueing_") as folder:
             for name, content in order.files.items():
                 (Path(folder) / name).write_bytes(content.encode("latin-1"))
-            scenario = load_scenario(Path(folder) / "scenario.toml")
+            scenario = load_scenario(Path(folder) / "scenario.toml", trust_models=order.trust_models)
             here = run_id(scenario)
             if here != order.id:
                 return Record(order.id, "worker_differs", f"this worker would fly {here}: its versions are not the driver's")

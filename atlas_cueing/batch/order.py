@@ -21,17 +21,19 @@ class Limits:
 
 @dataclass(frozen=True, slots=True)
 class Order:
-    """A run to fly: its id, the folder of results, the files of the scenario by name, and its limits."""
+    """A run to fly: its id, the folder of results, the files of the scenario by name, its limits, and trust in its script."""
 
     id: str
     folder: str
     files: dict[str, str]  # bytes as Latin-1, which loses none
     limits: Limits
+    trust_models: bool = False
 
     @classmethod
     def of(cls, run: PlannedRun, folder: str, limits: Limits) -> Self:
         """The order for a planned run."""
-        return cls(run.id, folder, {name: data.decode("latin-1") for name, data in run.scenario.attachments().items()}, limits)
+        files = {name: data.decode("latin-1") for name, data in run.scenario.attachments().items()}
+        return cls(run.id, folder, files, limits, run.scenario.trust_models)
 
     def to_line(self) -> bytes:
         """One line of JSON."""
@@ -41,4 +43,4 @@ class Order:
     def from_line(cls, line: bytes) -> Self:
         """The order again."""
         table = json.loads(line)
-        return cls(table["id"], table["folder"], table["files"], Limits(**table["limits"]))
+        return cls(table["id"], table["folder"], table["files"], Limits(**table["limits"]), table["trust_models"])

@@ -36,17 +36,18 @@ class PlannedRun:
         return inf if self.duration is None else self.duration / self.step
 
 
-def plan(paths: Iterable[Path], overrides: Sequence[str] = ()) -> list[PlannedRun]:
+def plan(paths: Iterable[Path], overrides: Sequence[str] = (), *, trust_models: bool = False) -> list[PlannedRun]:
     """All runs of scenario files, sweeps and folders of them; of runs that are the same the first.
 
-    Raises InputError with the mistakes of all files at once, also when a platform cannot be driven or does not fit the step.
+    Raises InputError with the mistakes of all files at once, also when a platform cannot be driven or does not fit the step,
+    and for a user's script without `trust_models`.
     """
     runs: dict[str, PlannedRun] = {}
     wrong: dict[str, None] = {}  # an ordered set
     for path in paths:
         try:
             for file in scenario_files(path) if path.is_dir() else [path]:
-                _add(runs, wrong, file, overrides)
+                _add(runs, wrong, file, overrides, trust_models)
         except ScenarioError as error:
             wrong |= dict.fromkeys(str(error).splitlines())
     if wrong:
@@ -54,9 +55,9 @@ def plan(paths: Iterable[Path], overrides: Sequence[str] = ()) -> list[PlannedRu
     return list(runs.values())
 
 
-def _add(runs: dict[str, PlannedRun], wrong: dict[str, None], file: Path, overrides: Sequence[str]) -> None:
+def _add(runs: dict[str, PlannedRun], wrong: dict[str, None], file: Path, overrides: Sequence[str], trust_models: bool) -> None:
     try:
-        variants = load_variants(file, overrides)
+        variants = load_variants(file, overrides, trust_models=trust_models)
     except ScenarioError as error:
         wrong |= dict.fromkeys(str(error).splitlines())
         return
@@ -64,10 +65,10 @@ def _add(runs: dict[str, PlannedRun], wrong: dict[str, None], file: Path, overri
         duration, step = _course(variant.scenario)
         try:
             _check(variant.scenario, step)
+            name = run_id(variant.scenario)
         except InputError as error:
             wrong[f"{file}: {error}"] = None
             continue
-        name = run_id(variant.scenario)
         runs.setdefault(name, PlannedRun(name, file, variant.scenario, variant.settings, duration, step))
 
 
@@ -94,8 +95,11 @@ def _course(scenario: Scenario) -> tuple[float | None, float]:
 
 def _script_course(script: Path) -> tuple[float | None, float | None, float | None]:
     """Start, end and step that a script states, s."""
-    with script.open("rb") as file:
-        run = re.search(rb"<run\b([^>]*)>", file.read(_LARGEST_SCRIPT))
+    try:
+        with script.open("rb") as file:
+            run = re.search(rb"<run\b([^>]*)>", file.read(_LARGEST_SCRIPT))
+    except OSError:  # said in words when its content is asked for
+        run = None
     text = run[1] if run else b""
     return _number(b"start", text), _number(b"end", text), _number(b"dt", text)
 

@@ -11,6 +11,7 @@ import typer
 
 from ..errors import InputError, LogError
 from .batch_progress import batch_progress, spoken
+from .text import TRUST_MODELS
 
 if TYPE_CHECKING:
     from ..batch import Fly, Outcome, PlannedRun
@@ -60,6 +61,7 @@ def batch(
         bool, typer.Option("--pages", help="Write the review of each run for a browser; MBs and seconds each.")
     ] = False,
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Check everything, show the plan, fly nothing.")] = False,
+    trust_models: Annotated[bool, typer.Option("--trust-models", help=TRUST_MODELS)] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
     """Fly many scenarios, each alone in its process, and put all figures into one table.
@@ -72,7 +74,7 @@ def batch(
     _check_metric(sort)
     if pages:
         _check_plotly()
-    runs = plan(paths, settings or ())
+    runs = plan(paths, settings or (), trust_models=trust_models)
     check_folder(output)
     todo = missing(runs, output, retry=retry)
     typer.echo(_plan_text(runs, todo), err=True)

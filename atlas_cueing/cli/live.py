@@ -67,6 +67,7 @@ def live(
     bad input, nothing was written.
     """
     from ..batch import check_output
+    from ..live.ending import ending
     from ..live.session import LiveOptions, LiveSession
     from ..scenario import load_scenario
     from .live_extras import drives, followers
@@ -87,9 +88,10 @@ def live(
         announce=not as_json,
     )
     session = LiveSession(loaded, log, options)
-    with followers(session, loaded, port if view else None, foxglove), drives(setpoints, key) as sender:
-        result = session.run(sender)
-    typer.echo(one_json(result.to_json()) if as_json else live_summary(result))
+    with ending() as signals:
+        with followers(session, loaded, port if view else None, foxglove), drives(setpoints, key) as sender:
+            result = session.run(sender, signals.asked)
+        typer.echo(one_json(result.to_json()) if as_json else live_summary(result))
     if not result.clean:
         for finding in ([f"{result.result}: {result.reason}"] if result.reason else []) + list(result.evaluation.violations):
             typer.echo(finding, err=True)

@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from .text import TRUST_MODELS
+
 EPILOG = """
 Examples:
 
@@ -25,6 +27,7 @@ def run(
         list[str] | None,
         typer.Option("--set", metavar="KEY=VALUE", help="Set any key of the scenario or its platform; repeatable."),
     ] = None,
+    trust_models: Annotated[bool, typer.Option("--trust-models", help=TRUST_MODELS)] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace an existing log.")] = False,
 ) -> None:
@@ -40,9 +43,9 @@ def run(
     from .summary import run_summary
     from .text import one_json
 
-    loaded = load_scenario(scenario, settings or ())
+    loaded = load_scenario(scenario, settings or (), trust_models=trust_models)
     log = output or Path(f"{loaded.name}.mcap")
-    check_output(log, force=force)
+    check_output(log, force=force, fresh=True)
     with shown_progress(loaded.name, loaded.file.duration_s) as progress:
         result = run_scenario(loaded, log, progress=progress)
     typer.echo(one_json(result.to_json()) if as_json else run_summary(result))

@@ -5,6 +5,8 @@ from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import Any
 
+TRUST_MODELS = "Fly a script that lies beside the scenario; it is a program of whoever wrote it."  # help of --trust-models
+
 
 def one_json(figures: Mapping[str, Any]) -> str:
     """One JSON object; a number that is not finite is null, as JSON has no other word for it."""

@@ -16,6 +16,7 @@ replacing a plan never gives up a limit.
 """
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import TypeAlias
 
 import daqp
@@ -47,10 +48,8 @@ class HorizonProblem:
 
         Raises ValueError when the solver does not take the problem.
         """
-        nodes = _nodes(durations)
-        cost = _cost(durations, nodes, omega, fade)
+        cost, bounded, bound = _matrices(tuple(durations), omega, fade, limits)
         self.hessian, self.gradient = np.ascontiguousarray(cost[4:, 4:]), np.ascontiguousarray(cost[4:, :4])
-        bounded, bound = _limits(durations, nodes, limits)
         unknowns = len(durations) - 1
         self.rows, self.offset = np.ascontiguousarray(bounded[unknowns:, 4:]), np.ascontiguousarray(bounded[:, :3])
         self.bound, self._lower, self._bounds = bound, -bound, len(bound)
@@ -78,6 +77,16 @@ class HorizonProblem:
 
 
 # A form is the row of factors that gives a quantity from (p, v, a, d, x): the state now, the demand now, the unknowns.
+
+
+@lru_cache(maxsize=16)  # 3 ms, which a real-time loop that begins anew does not have
+def _matrices(durations: tuple[float, ...], omega: float, fade: float, limits: AxisLimits) -> tuple[Array, Array, Array]:
+    """Matrix of the cost, forms of all that is bounded, and their bounds; to be read only."""
+    nodes = _nodes(durations)
+    found = _cost(durations, nodes, omega, fade), *_limits(durations, nodes, limits)
+    for array in found:
+        array.flags.writeable = False
+    return found
 
 
 def _nodes(durations: Sequence[float]) -> tuple[Array, Array, Array]:

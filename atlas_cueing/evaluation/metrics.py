@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from .cost import cost
 from .deviation import deviation, extra_rate
 from .effort import effort
 from .flight import Flight
@@ -13,13 +14,14 @@ def metrics(flight: Flight) -> dict[str, float]:
     """All figures of a flight, the most telling first, each with its unit in the name; correlations and turns have none.
 
     Shares are 0 to 1 of the ticks. The definitions stand with the functions: `deviation` (force, direction, rate and attitude
-    error), `extra_rate`, `likeness` (perceived errors; correlation, delay, missing, false and scaled cues of each axis),
+    error), `cost`, `extra_rate`, `likeness` (perceived errors; correlation, delay, missing, false, scaled cues of each axis),
     `turning` (Coriolis exposure, net turns), `effort` (smoothing and actuators); ticks and duration_s close the list.
 
     Every figure is a finite float when the columns are finite; a flight without ticks gives zeros.
     """
     return {
         **deviation(flight),
+        **cost(flight),
         **extra_rate(flight),
         **likeness(flight),
         **turning(flight),

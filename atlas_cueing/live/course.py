@@ -28,7 +28,7 @@ from ..rotation import (
 from ..signals import Cue, Motion
 
 HALT_TIME = 0.8  # s; from full speed to rest (assumed; the wheels' limits would allow half of it)
-CALM_RATE = radians(45.0)  # rad/s at most on the way home, or to the cue (assumed)
+CALM_RATE = radians(60.0)  # rad/s at most on the way home, or to the cue (assumed)
 CALM_SPEED = 0.5  # m/s, likewise
 CALM_ACCELERATION = 0.8  # m/s^2, likewise
 SHORTEST_PARKING = 1.0  # s
@@ -133,8 +133,8 @@ class Blend:
 
     On the sphere the same is done tick by tick: the orientation takes the share s of the cue's own turn, and then, of what is
     left to the cue, the share (s1 - s0) / (1 - s0) that brings s to its next value; its rate is s w_cue + s' / (1 - s) e, with
-    e = log(q_cue q*) the turn still left: the shorter way to begin with, and not changed over for a cue that runs away past half
-    a turn.
+    e = log(q_cue q*) the turn still left: the shorter way to begin with, and not changed over for a cue that runs away past
+    half a turn.
     """
 
     def __init__(self, motion: Motion, cue: Cue, dt: float, duration: float) -> None:

@@ -16,7 +16,7 @@ Then its stop: speed, and on the stage travel, hold from there to standstill, in
 successor: one tick along its own stop. Each wheel and each axis of W stops on its own.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import copysign, inf, sqrt, ulp
 
@@ -24,12 +24,12 @@ from ..errors import InputError
 from ..rotation import ZERO, Vec3
 from ..signals import StageLimits, WheelLimits
 
-_ROUNDING = 1e-6  # share by which a limit may be passed: differences of rounded numbers over a tick of 1 ms do
+_ROUNDING = 5e-7  # share by which a limit may be passed, as differences of rounded numbers do; the stop is flown with it, too
 _EARLY = 1e-6  # share of a tick by which a command may be early, beside the rounding of its time
 _LATE = 0.1  # s; a command may come so much late; after that the drives were left alone too long (assumed)
 _AGES = 1e10  # s; no clock shows more, and below it ticks of 1 ms are told apart
 
-_Check = tuple[str, float, float, float]  # what, value, lowest and highest allowed
+_Checks = tuple[tuple[str, float, float, float], ...]  # what, value, lowest and highest allowed
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,11 +60,11 @@ class Guard:
         wheels, stage = wheel_limits, stage_limits
         self._dt = dt
         self._wheels = [
-            _Wheel(f"wheel {name}", dt, *limit)
+            _Wheel(f"wheel {name} ", dt, *limit)
             for name, *limit in zip("123", wheels.speed, wheels.acceleration, wheels.jerk, strict=True)
         ]
         self._rails = [
-            _Rail(f"stage {name}", dt, *limit)
+            _Rail(f"stage {name} ", dt, *limit)
             for name, *limit in zip("xyz", stage.speed, stage.acceleration, stage.jerk, stage.travel, strict=True)
         ]
         self._begin(Command(0.0, ZERO, ZERO, ZERO, ZERO, ZERO))
@@ -72,10 +72,10 @@ class Guard:
 
     def start(self, command: Command) -> None:
         """Open (again) at a command that stands still inside the travel, at any time. Raises InputError for any other one."""
-        places = zip("xyz", command.p_WS_W, self._rails, strict=True)
-        checks: list[_Check] = [("time", command.time, -_AGES, _AGES)]
-        checks += [(f"stage {name} position", p, -rail.travel, rail.travel) for name, p, rail in places]
-        checks += [("a rate", rate, 0.0, 0.0) for rate in _rates(command)]
+        places = zip(self._rails, command.p_WS_W, strict=True)
+        checks = [("", (("time", command.time, -_AGES, _AGES),))]
+        checks += [(rail.name, (("position", p, -rail.travel, rail.travel),)) for rail, p in places]
+        checks += [("", (("a rate", rate, 0.0, 0.0),)) for rate in _rates(command)]
         if breach := _breach(checks):
             raise InputError(f"start from a standstill inside the travel: {breach}")
         self._begin(command)
@@ -85,11 +85,11 @@ class Guard:
         if not self.stopping:
             try:
                 breach = _breach(self._checks(command))
+                if not breach:
+                    self._put_out(command)
+                    return command
             except (ArithmeticError, TypeError, ValueError) as error:
                 breach = f"no command at all: {error}"
-            if not breach:
-                self._put_out(command)
-                return command
             self._latch(f"{breach}, at {command.time} s")
         return self.stop(command.time)
 
@@ -98,7 +98,7 @@ class Guard:
         if not self.stopping:
             self._latch(f"no command at {time} s")
         self._ticks += 1
-        if not self._earliest <= time <= self._latest:
+        if not (isinstance(time, float | int) and self._earliest <= time <= self._latest):
             time = self._last.time + self._dt
         ways = [stop.at(self._ticks * self._dt) for stop in self._stops]
         (_, w1, b1), (_, w2, b2), (_, w3, b3), (px, vx, ax), (py, vy, ay), (pz, vz, az) = ways
@@ -125,9 +125,9 @@ class Guard:
         self._put_out(command)
 
     def _put_out(self, command: Command) -> None:
-        self._last = command
         self._earliest = command.time + self._dt * (1.0 - _EARLY) - 2.0 * ulp(command.time)
         self._latest = command.time + self._dt + _LATE
+        self._last = command
 
     def _latch(self, reason: str) -> None:
         """Plan the stop from the last output."""
@@ -137,18 +137,17 @@ class Guard:
         self._stops = [axis.stop(*state) for axis, *state in (*wheels, *rails)]
         self._reason = reason
 
-    def _checks(self, command: Command) -> Iterator[_Check]:
-        """All that has to hold for the command to follow the last output."""
+    def _checks(self, command: Command) -> Iterator[tuple[str, _Checks]]:
+        """All that has to hold for the command to follow the last output, axis by axis."""
         last = self._last
-        yield "time", command.time, self._earliest, self._latest
-        before = zip(last.wheel_speed, last.wheel_acceleration, strict=True)
-        after = zip(command.wheel_speed, command.wheel_acceleration, strict=True)
-        for wheel, (v0, a0), (v, a) in zip(self._wheels, before, after, strict=True):
-            yield from wheel.checks(v0, a0, v, a)
-        placed = zip(last.p_WS_W, last.v_WS_W, last.a_WS_W, strict=True)
-        place = zip(command.p_WS_W, command.v_WS_W, command.a_WS_W, strict=True)
-        for rail, old, new in zip(self._rails, placed, place, strict=True):
-            yield from rail.rail_checks(*old, *new)
+        yield "", (("time", command.time, self._earliest, self._latest),)
+        before, after = (last.wheel_speed, last.wheel_acceleration), (command.wheel_speed, command.wheel_acceleration)
+        for wheel, v0, a0, v, a in zip(self._wheels, *before, *after, strict=True):
+            yield wheel.name, wheel.checks(v0, a0, v, a)
+        placed, place = (last.p_WS_W, last.v_WS_W, last.a_WS_W), (command.p_WS_W, command.v_WS_W, command.a_WS_W)
+        for rail, p0, v0, a0, p, v, a in zip(self._rails, *placed, *place, strict=True):
+            yield rail.name, rail.checks(v0, a0, v, a)
+            yield rail.name, rail.place_checks(p0, v0, a0, p, v, a)
 
 
 class _Wheel:
@@ -157,23 +156,24 @@ class _Wheel:
     def __init__(self, name: str, dt: float, speed: float, acceleration: float, jerk: float) -> None:
         for what, value in (("tick", dt), ("speed", speed), ("acceleration", acceleration), ("jerk", jerk)):
             if not 0.0 < value < inf:
-                raise InputError(f"{name} {what} {value:g}, allowed: 0 < value < inf")
+                raise InputError(f"{name}{what} {value:g}, allowed: 0 < value < inf")
         self.name, self.dt = name, dt
         self.speed, self.acceleration, self.jerk = (x * (1.0 + _ROUNDING) for x in (speed, acceleration, jerk))
         self.reach = self.jerk * (1.0 + _ROUNDING)  # for J in speed and position: rounding there, and h - |D| / J > 0
 
-    def checks(self, v0: float, a0: float, v: float, a: float) -> Iterator[_Check]:
+    def checks(self, v0: float, a0: float, v: float, a: float) -> _Checks:
         """From speed v0 and acceleration a0 to v and a, one tick later."""
-        h, name = self.dt, self.name
-        yield f"{name} speed", v, -self.speed, self.speed
-        yield f"{name} acceleration", a, -self.acceleration, self.acceleration
-        turn = self.jerk * h
-        yield f"{name} acceleration by the jerk", a, a0 - turn, a0 + turn
-        gain = self.acceleration * h
-        yield f"{name} speed by the acceleration", v, v0 - gain, v0 + gain
-        mean, bend = v0 + 0.5 * h * (a0 + a), 0.25 * (self.reach * h * h - (a - a0) * (a - a0) / self.reach)
-        yield f"{name} speed by the jerk", v, mean - bend, mean + bend
-        yield f"{name} speed on the way to standstill", v + 0.5 * a * abs(a) / self.jerk, -self.speed, self.speed
+        h, fast, strong = self.dt, self.speed, self.acceleration
+        turn, gain, D = self.jerk * h, strong * h, a - a0
+        mean, bend = v0 + 0.5 * h * (a0 + a), 0.25 * (self.reach * h * h - D * D / self.reach)
+        return (
+            ("speed", v, -fast, fast),
+            ("acceleration", a, -strong, strong),
+            ("acceleration by the jerk", a, a0 - turn, a0 + turn),
+            ("speed by the acceleration", v, v0 - gain, v0 + gain),
+            ("speed by the jerk", v, mean - bend, mean + bend),
+            ("speed on the way to standstill", v + 0.5 * a * abs(a) / self.jerk, -fast, fast),
+        )
 
     def stop(self, p: float, v: float, a: float) -> "_Stop":
         """The stop from this state."""
@@ -190,31 +190,31 @@ class _Rail(_Wheel):
         super().__init__(name, dt, speed, acceleration, jerk)
         unused = acceleration * dt * dt / 8.0
         if not unused < travel < inf:
-            raise InputError(f"{name} travel {travel:g} m, allowed: {unused:.3g} < value < inf")
+            raise InputError(f"{name}travel {travel:g} m, allowed: {unused:.3g} < value < inf")
         self.travel = travel * (1.0 + _ROUNDING) - unused
         self._blur = 4.0 * ulp(travel)
 
-    def rail_checks(self, p0: float, v0: float, a0: float, p: float, v: float, a: float) -> Iterator[_Check]:
-        """From position p0, speed v0 and acceleration a0 to p, v and a, one tick later."""
-        h, name = self.dt, self.name
-        yield f"{name} position", p, -self.travel, self.travel
-        yield from self.checks(v0, a0, v, a)
-        way, sag = self.speed * h, 0.5 * self.acceleration * h * h
-        yield f"{name} position by the speed", p, p0 - way, p0 + way
-        yield f"{name} position by the acceleration", p, p0 + h * v0 - sag, p0 + h * v0 + sag
-        yield f"{name} position by the acceleration", p, p0 + h * v - sag, p0 + h * v + sag
-        yield f"{name} position by the jerk", p, *self._reachable(p0, v0, a0, v, a)
-        stop = self.stop(p, v, a)
-        yield f"{name} standstill", stop.end, -self.travel, self.travel
-        yield f"{name} turning point", stop.turning_point(), -self.travel, self.travel
+    def place_checks(self, p0: float, v0: float, a0: float, p: float, v: float, a: float) -> _Checks:
+        """From position p0, speed v0 and acceleration a0 to p, v and a, one tick later, if v and a are fit."""
+        h, end, stop = self.dt, self.travel, self.stop(p, v, a)
+        way, sag, old, new = self.speed * h, 0.5 * self.acceleration * h * h, p0 + h * v0, p0 + h * v
+        low, high = self._reachable(p0, v0, a0, v, a)
+        return (
+            ("position", p, -end, end),
+            ("position by the speed", p, p0 - way, p0 + way),
+            ("position by the acceleration", p, old - sag, old + sag),
+            ("position by the acceleration", p, new - sag, new + sag),
+            ("position by the jerk", p, low, high),
+            ("standstill", stop.end, -end, end),
+            ("turning point", stop.turning_point, -end, end),
+        )
 
     def _reachable(self, p0: float, v0: float, a0: float, v: float, a: float) -> tuple[float, float]:
         """Lowest and highest p to which a jerk-limited tick can lead."""
         h, D = self.dt, a - a0
         m = 0.5 * h * (a0 + a) - (v - v0)
-        c = p0 + 0.5 * h * (v0 + v) - h * h * D / 8.0
-        low, high = (self._moment(m, h + side * D / self.reach) for side in (1.0, -1.0))
-        return c - 0.5 * low - self._blur, c + 0.5 * high + self._blur
+        c, skew = p0 + 0.5 * h * (v0 + v) - h * h * D / 8.0, D / self.reach
+        return c - 0.5 * self._moment(m, h + skew) - self._blur, c + 0.5 * self._moment(m, h - skew) + self._blur
 
     def _moment(self, m: float, d: float) -> float:
         """f(d) of the module's text."""
@@ -222,27 +222,32 @@ class _Rail(_Wheel):
 
 
 class _Stop:
-    """The shortest jerk-limited way from (p, v, a) to rest, told from its end.
+    """The shortest jerk-limited way from (p, v, a) to rest at `end`.
 
     With u = v + a|a| / 2J, the speed if a were brought to zero, v and a times u's sign brake downwards, along a trapezoid that
     begins with no acceleration and the speed s = v + a^2 / 2J, at a time -a / J after now: a ramp of min(A / J, sqrt(s / J)),
     max(s / A - A / J, 0) at full deceleration, a ramp back. (p, v, a) is a point of that trapezoid, or of its first ramp
-    drawn backwards when a speeds it up. Integrated backwards from rest over what is left of each part, every sum is one of
-    products, and zero at the end to the last bit.
+    drawn backwards when a speeds it up; drawn further than sqrt(2 s / J), where v was zero, it goes the other way first,
+    to the `turning_point`, which is p if it does not.
     """
 
     def __init__(self, p: float, v: float, a: float, acceleration: float, jerk: float) -> None:
-        self._sign = copysign(1.0, v + 0.5 * a * abs(a) / jerk)
-        top = self._sign * v + 0.5 * a * a / jerk
-        self._jerk = self._sign * jerk
-        self._ramp, self._hold = min(acceleration / jerk, sqrt(top / jerk)), max(top / acceleration - acceleration / jerk, 0.0)
-        self._since = -a / self._jerk
-        self._turn = max(-self._since - sqrt(2.0 * top / jerk), 0.0)
-        self.end = 0.0
-        self.end = p - self.at(0.0)[0]
+        sign = copysign(1.0, v + 0.5 * a * abs(a) / jerk)
+        top = sign * v + 0.5 * a * a / jerk
+        self._ramp, self._hold = acceleration / jerk, top / acceleration - acceleration / jerk
+        if self._hold < 0.0:
+            self._ramp, self._hold = sqrt(top / jerk), 0.0
+        self._jerk = sign * jerk
+        self._since, turn = -a / self._jerk, -sqrt(2.0 * top / jerk)
+        begin = p + (self._jerk * self._since * self._since / 6.0 - sign * top) * self._since
+        self.end = begin + sign * top * (self._ramp + 0.5 * self._hold)
+        self.turning_point = begin + sign * top * turn / 1.5 if self._since < turn else p
 
     def at(self, t: float) -> Vec3:
-        """Position, speed and acceleration t >= 0 s from its start."""
+        """Position, speed and acceleration t >= 0 s from its start.
+
+        Integrated backwards from the end: every sum is one of products, and zero at the end to the last bit.
+        """
         now, ramp, hold = self._since + t, self._ramp, self._hold
         z = min(max(2.0 * ramp + hold - now, 0.0), ramp)  # s, left of the last ramp, of the hold, of the first ramp
         y = min(max(ramp + hold - now, 0.0), hold)
@@ -251,20 +256,17 @@ class _Stop:
         speed = 0.5 * (z * z - x * x) + z * (y + x)
         return self.end - self._jerk * left, self._jerk * speed, self._jerk * (x - z)
 
-    def turning_point(self) -> float:
-        """Where a is about to carry v backwards and the speed changes its sign; the start if it does not."""
-        return self.at(self._turn)[0]
-
 
 def _rates(command: Command) -> tuple[float, ...]:
     """All that is zero at a standstill."""
-    return command.wheel_speed + command.wheel_acceleration + command.v_WS_W + command.a_WS_W
+    return (*command.wheel_speed, *command.wheel_acceleration, *command.v_WS_W, *command.a_WS_W)
 
 
-def _breach(checks: Iterator[_Check] | list[_Check]) -> str:
-    """What does not hold first, or nothing."""
+def _breach(examined: Iterable[tuple[str, _Checks]]) -> str:
+    """What does not hold first, or nothing; each goes with the name of its axis."""
     breaches = (
-        f"{what} {value:.12g}, allowed: {low:.12g} <= value <= {high:.12g}"
+        f"{name}{what} {value:.12g}, allowed: {low:.12g} <= value <= {high:.12g}"
+        for name, checks in examined
         for what, value, low, high in checks
         if not low <= value <= high
     )

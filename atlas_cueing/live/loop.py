@@ -40,10 +40,16 @@ class Loop:
     """Runs a conductor against a clock, until it is over."""
 
     def __init__(
-        self, dt: float, clock: Clock, conductor: Conductor, outputs: Sequence[Output], drives: Sequence[Drives]
+        self,
+        dt: float,
+        clock: Clock,
+        conductor: Conductor,
+        outputs: Sequence[Output],
+        drives: Sequence[Drives],
+        origin: float | None = None,
     ) -> None:
-        """Tick dt in s."""
-        self._dt, self._clock, self._conductor = dt, clock, conductor
+        """Tick dt in s. `origin`, s of the clock, is where the log counts its real time from; the loop's start by default."""
+        self._dt, self._clock, self._conductor, self._origin = dt, clock, conductor, origin
         self._outputs, self._drives = outputs, drives
         self._missed_in_a_row = 0
         self.ticks, self.time = 0, 0.0
@@ -52,12 +58,13 @@ class Loop:
     def run(self) -> None:
         """Tick on."""
         start, slot = self._clock.now() + self._dt, 0
+        since = start if self._origin is None else self._origin
         while not self._conductor.over:
             deadline = start + slot * self._dt
             self._clock.sleep_until(deadline)
             begun = self._clock.now()
             slot += 1 + self._count_missed(begun - deadline)
-            self._tick(deadline, deadline - start, begun)
+            self._tick(deadline, deadline - start, deadline - since, begun)
         self._tell()
 
     def _count_missed(self, lateness: float) -> int:
@@ -68,10 +75,10 @@ class Loop:
         self.timing.longest_row = max(self.timing.longest_row, self._missed_in_a_row)
         return missed
 
-    def _tick(self, deadline: float, elapsed: float, begun: float) -> None:
+    def _tick(self, deadline: float, running: float, elapsed: float, begun: float) -> None:
         self.ticks += 1
         self.time, lateness = self.ticks * self._dt, begun - deadline
-        tick, command = self._conductor.tick(self.time, elapsed, lateness, self._missed_in_a_row)
+        tick, command = self._conductor.tick(self.time, running, lateness, self._missed_in_a_row)
         state = self._conductor.state.number
         for drive in self._drives:
             drive.send(self.ticks, self.time, deadline + LEAD, state, command)

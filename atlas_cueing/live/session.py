@@ -1,7 +1,7 @@
 """A live run from a scenario to a finished log: everything put together, run, and taken apart again."""
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack, closing
 from dataclasses import asdict, dataclass, field
 from importlib.metadata import version
@@ -13,7 +13,6 @@ from ..recording.buttons import Buttons
 from ..scenario import Evaluation, Scenario, build, evaluate
 from .clock import MonotonicClock
 from .conductor import Conductor, Wishes
-from .ending import ending
 from .guard import Guard
 from .loop import Drives, Loop
 from .opening import open_source
@@ -97,18 +96,18 @@ class LiveSession:
         self._source: Source = open_source(scenario)
         self.ring: Ring = live_ring(RING_SECONDS, options.rate)
         self.buttons = Buttons()
-        self.started_ns = time.time_ns()  # of log times: wall clock at the loop's start, to some tenths of a second
+        self._clock = MonotonicClock()
+        self._origin, self.started_ns = self._clock.now(), time.time_ns()  # one moment, by the loop's clock and by the wall's
 
-    def run(self, drives: Sequence[Drives] = ()) -> LiveResult:
-        """Fly until the run is over, and finish the log."""
+    def run(self, drives: Sequence[Drives] = (), signals: Callable[[], int] = int) -> LiveResult:
+        """Fly until the run is over, and finish the log; `signals` tells how often the process has been asked to end."""
         with ExitStack() as stack:
             stack.enter_context(closing(self._source))
-            signals = stack.enter_context(ending())
             recorder = RecorderProcess(self.ring, self._recorder(), announce=self._options.announce)
-            asked = Wishes(self.buttons.edges, signals.asked, self._options.duration, self._options.attended)
+            asked = Wishes(self.buttons.edges, signals, self._options.duration, self._options.attended)
             conductor = self._conductor(asked)
             writer = LiveWriter(self.ring)
-            loop = Loop(self._dt, MonotonicClock(), conductor, [writer], drives)
+            loop = Loop(self._dt, self._clock, conductor, [writer], drives, self._origin)
             try:
                 with punctual(self._options.priority) as realtime:
                     before = collections()

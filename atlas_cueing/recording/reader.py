@@ -19,7 +19,9 @@ from .transforms import POSE, take_transforms, transform_template
 from .wire import MESSAGE_OPCODE, RECORD_HEAD, Array, Records, Times, flat_dtype, take
 
 MAX_LOG = 4 * 2**30  # bytes of messages unpacked; over an hour at 1 kHz
-_HEAD = 22 + RECORD_HEAD  # bytes before the body of a message record
+_MESSAGE_HEAD = 22  # bytes: channel, sequence, log time, publish time
+_HEAD = _MESSAGE_HEAD + RECORD_HEAD  # bytes before the body of a message record
+_BOUNDARY = 11  # bytes: opcode, length, channel
 _boundary = struct.Struct("<BQH").unpack_from  # opcode, length, channel
 
 
@@ -65,6 +67,10 @@ class _Content:
 
     def add(self, record: McapRecord) -> None:
         """Take in one record of the data section; the summary repeats what is known."""
+        if isinstance(record, Chunk):
+            self._charge(record.uncompressed_size)
+        elif isinstance(record, Attachment | Schema):
+            self._charge(len(record.data))
         match record:
             case Schema():
                 self._schemas[record.id] = record
@@ -88,6 +94,12 @@ class _Content:
         transforms = poses[0] if poses else None
         return Log(path, tables, self._metadata[RUN_METADATA], self._attachments, tuple(self._statuses), transforms)
 
+    def _charge(self, size: int) -> None:
+        """Bound what is kept in memory; schemas and files count as messages do."""
+        self._left -= size
+        if self._left < 0:
+            raise LogError("the content of the log is larger than allowed")
+
     def _add_channel(self, channel: Channel) -> None:
         self._channels[channel.id] = channel
         schema = self._schemas.get(channel.schema_id)
@@ -102,9 +114,6 @@ class _Content:
 
     def _add_chunk(self, chunk: Chunk) -> None:
         """Messages of a chunk: flat ones by numpy, changes of state one by one, others skipped."""
-        self._left -= chunk.uncompressed_size
-        if self._left < 0:
-            raise LogError("the messages of the log are larger than allowed")
         data = unpack(chunk)
         for channel, starts in _message_starts(data).items():
             if channel in self._fields:
@@ -114,7 +123,7 @@ class _Content:
             for start in starts if channel in self._status_class else ():
                 end = start + RECORD_HEAD + _boundary(data, start)[1]
                 message = self._status_class[channel].FromString(data[start + _HEAD : end])
-                self._statuses.append(Status(message.time_s, message.state, message.reason))
+                self._statuses.append(_status(message))
 
     def _flat(self, channel: int, data: bytes, starts: NDArray[np.int64]) -> tuple[Array, Times]:
         """Values (n, fields) and log times of the messages of a channel at `starts`, after a look at every tag and length."""
@@ -134,6 +143,14 @@ class _Content:
         return poses, records["log_time"].copy()
 
 
+def _status(message: Any) -> Status:
+    """The log brings its own description of the message, which may call anything a time."""
+    time, state, reason = message.time_s, message.state, message.reason
+    if not (isinstance(time, float) and isinstance(state, str) and isinstance(reason, str)):
+        raise LogError(f"a message of {STATUS} is not a time, a state and a reason")
+    return Status(time, state, reason)
+
+
 def _records(data: bytes, starts: NDArray[np.int64], dtype: np.dtype[np.void]) -> Records | None:
     """The records of one layout at `starts`; None when the last one does not fit into the data."""
     if starts[-1] + dtype.itemsize > len(data):
@@ -148,7 +165,11 @@ def _message_starts(data: bytes) -> dict[int, list[int]]:
     starts: dict[int, list[int]] = {}
     position, end = 0, len(data)
     while position < end:
+        if position + _BOUNDARY > end:
+            raise LogError("the last record of a chunk is cut")
         opcode, length, channel = _boundary(data, position)
+        if opcode == MESSAGE_OPCODE and length < _MESSAGE_HEAD:
+            raise LogError(f"a message in a chunk has {length} bytes, allowed: at least {_MESSAGE_HEAD}")
         if opcode == MESSAGE_OPCODE:
             starts.setdefault(channel, []).append(position)
         position += RECORD_HEAD + length

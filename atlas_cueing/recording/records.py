@@ -50,6 +50,8 @@ class RecordReader:
             if length > MAX_RECORD:
                 raise LogError(f"a record claims {length} bytes, allowed: at most {MAX_RECORD}")
             body = self._take(length)
+            if opcode == Opcode.ATTACHMENT:  # mcap does not look at it
+                _check("attachment", int.from_bytes(body[-4:], "little"), zlib.crc32(body[:-4]))
             if opcode in _READ:
                 record = _READ[opcode](ReadDataStream(BytesIO(body)))
                 yield record

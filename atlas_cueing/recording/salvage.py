@@ -118,7 +118,9 @@ def rewrite(found: Salvage, output: Path, metadata: Mapping[str, str]) -> None:
             container.add_attachment(name, "application/toml", content)
         for start, end in found.chunks:
             source.seek(start)
-            container.add_chunk(_encoded(unpack(Chunk.read(_stream(source.read(end - start)))), found))
+            chunk = _encoded(unpack(Chunk.read(_stream(source.read(end - start)))), found)
+            if chunk.index:  # whole, but without any message
+                container.add_chunk(chunk)
         container.add_metadata(RUN_METADATA, metadata)
         container.finish()
     part.replace(output)

@@ -86,7 +86,7 @@ def _integrals(time: Array, chain: _Chain) -> list[Finding]:
         return []
     h = np.diff(time)
     x, v, a = chain.values
-    jerk = np.asarray(chain.limits[3])
+    jerk = _allowed(chain.limits[3])
     error, bound = np.diff(v, axis=0) - mean_step(a, h), speed_error(a, h, jerk) + ROUNDING
     found = exceeding(
         "not the integral of its acceleration", chain.places[1], time[1:], error, bound, chain.unit[1], quantity="error"

@@ -32,7 +32,7 @@ Frequency: TypeAlias = Annotated[float, number(0.01, 50.0)]
 Frequencies: TypeAlias = Annotated[tuple[Frequency, Frequency, Frequency], ONE_OR_THREE]
 Corner: TypeAlias = Annotated[float, number(0.0, 10.0)]
 Corners: TypeAlias = Annotated[tuple[Corner, Corner, Corner], ONE_OR_THREE]
-Travel: TypeAlias = Annotated[float, number(0.0, 1e3, above=True)]
+Travel: TypeAlias = Annotated[float, number(1e-6, 1e3)]
 Travels: TypeAlias = Annotated[tuple[Travel, Travel, Travel], ONE_OR_THREE]
 Force: TypeAlias = Annotated[float, number(0.01, 100.0)]
 
@@ -59,7 +59,7 @@ class StageTable(Table):
     planner: Literal["horizon", "onset"] = "horizon"
     onset_rad_s: Frequencies = _STAGE.onset
     recentre_rad_s: Corners = _STAGE.recentre
-    bandwidth_hz: Annotated[float, number(0.0, 100.0, above=True)] = _STAGE.bandwidth
+    bandwidth_hz: Annotated[float, number(1e-3, 100.0)] = _STAGE.bandwidth
     travel_m: Travels | None = None
     planning_rate_hz: Annotated[float, number(10.0, 1000.0)] = _HORIZON.planning_rate
     horizon_s: Annotated[float, number(1.0, 20.0)] = _HORIZON.length

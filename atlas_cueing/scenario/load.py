@@ -9,7 +9,7 @@ from pydantic import ValidationError
 
 from ..errors import Mistake, ScenarioError
 from .cueing import ALL_METHODS, DEFAULT_METHOD
-from .mistakes import SET, FileNamer, Key, dotted, mistakes_of, nearest
+from .mistakes import MOST_SHOWN, SET, FileNamer, Key, dotted, mistakes_of, more, nearest
 from .overrides import Overrides, apply_overrides, parse_overrides
 from .platform import Platform, presets
 from .reading import read_toml
@@ -45,7 +45,8 @@ def resolve(data: dict[str, Any], settings: Overrides, path: Path, *, trust_mode
         _leave_method(data, flat["cueing", "method"])
     mistakes = apply_overrides(data, flat)
     file, found = _validate(ScenarioFile, data, FileNamer(str(path), flat), path.parent)
-    mistakes += found + _broken_rules(data, FileNamer(str(path), flat))
+    broken = _broken_rules(data, FileNamer(str(path), flat))
+    mistakes += found + broken[:MOST_SHOWN] + more(len(broken) - MOST_SHOWN, str(path))
     platform, found = _chosen_platform(data.get("platform"), path.parent, deep)
     mistakes += found
     if mistakes or file is None or platform is None:

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Collection, Sequence
+from datetime import date, time
 from difflib import get_close_matches
 from typing import Any, TypeAlias
 
@@ -16,19 +17,30 @@ _KINDS = {"model_type": "a table", "bool_type": "true or false", "string_type": 
 Key: TypeAlias = tuple[str | int, ...]
 
 SET = "--set"  # where a key from the command line came from
+MOST_SHOWN = 100  # mistakes of one file; who has more will mend the first ones first
 _LONGEST_VALUE = 60  # characters of a found value that a message repeats
 
 
 def mistakes_of(error: ValidationError, table: type[Table], data: dict[str, Any], name_file: "FileNamer") -> list[Mistake]:
-    """Every mistake once, in the order of the file; `name_file` says which file (or option) a key came from."""
+    """Every mistake once, in the order of the file; `name_file` says which file (or option) a key came from.
+
+    Of very many only some are looked at, and a last one says how many are left.
+    """
     found: dict[Key, tuple[tuple[int, ...], Mistake]] = {}
-    for detail in error.errors(include_url=False):
+    details = error.errors(include_url=False)
+    for detail in details[:MOST_SHOWN]:
         key, value = _as_written(detail["loc"], data)
         if detail["type"] == "union_tag_invalid":
             key, value = (*key, "method"), _lookup(value, "method")
         mistake = Mistake(name_file(key), dotted(key), shown(value), _allowed(detail, table))
         found.setdefault(key, (_position(key, data), mistake))
-    return [mistake for _, mistake in sorted(found.values(), key=lambda pair: pair[0])]
+    mistakes = [mistake for _, mistake in sorted(found.values(), key=lambda pair: pair[0])]
+    return mistakes + more(len(details) - MOST_SHOWN, name_file(()))
+
+
+def more(count: int, file: str) -> list[Mistake]:
+    """What stands for `count` mistakes that are not shown: nothing for none."""
+    return [Mistake(file, "file", "", f"and {count} more mistakes")] if count > 0 else []
 
 
 class FileNamer:
@@ -64,6 +76,8 @@ def shown(value: Any) -> str:
     """A found value as TOML would write it, cut to a readable length; empty when there is none or it is a table."""
     if value is None or isinstance(value, dict):
         return ""
+    if isinstance(value, date | time):  # a datetime is a date
+        return value.isoformat()
     text = str(value).lower() if isinstance(value, bool) else _repr(value)
     return text if len(text) <= _LONGEST_VALUE else text[:_LONGEST_VALUE] + "..."
 

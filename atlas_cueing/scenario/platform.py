@@ -14,7 +14,7 @@ from .table import ONE_OR_THREE, THREE, Finite, Table, number, object_to, refuse
 
 Direction: TypeAlias = Annotated[tuple[Finite, Finite, Finite], THREE]
 Length: TypeAlias = Annotated[float, number(0.001, 100.0)]  # m; from a bead to a gasometer
-Limit: TypeAlias = Annotated[float, number(0.0, 1e6, above=True)]
+Limit: TypeAlias = Annotated[float, number(1e-6, 1e6)]  # squares and quotients of these stay far from overflow
 Limits: TypeAlias = Annotated[tuple[Limit, Limit, Limit], ONE_OR_THREE]
 
 NAME = text(

@@ -14,6 +14,8 @@ from ..errors import Mistake, ScenarioError
 LARGEST_FILE = 256 * 1024  # bytes; a scenario of a thousand timed inputs has 80 kB
 DEEPEST_NESTING = 16  # brackets within brackets; the files here need three
 LONGEST_DOTTED_KEY = 16  # dots; the files here need three
+LONGEST_KEY = 100  # characters; the longest here has 25
+MOST_KEYS = 20_000  # of all tables; thousands of timed inputs, and every one may be a mistake to be told
 
 # Strings and comments hold brackets and dots that mean nothing. A string may lack its end, so that every character is read
 # once (the parser stops there anyway), and nothing is given back (`*+`); up to five quotes end a string of three.
@@ -39,9 +41,11 @@ def parse_toml(text: str, file: str) -> dict[str, Any]:
     """As `read_toml` for a text; `file` is for messages."""
     _check_shape(text, file)
     try:
-        return tomllib.loads(text)
+        table = tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # not only TOMLDecodeError: an integer of 5000 digits is a plain ValueError
         raise _mistake(file, "TOML", f"not valid: {error}") from None
+    _check_keys(table, file)
+    return table
 
 
 def _read(path: Path) -> str:
@@ -72,6 +76,23 @@ def _check_shape(text: str, file: str) -> None:
         depth += 1 if bracket in "[{" else -1
         if depth > DEEPEST_NESTING:
             raise _mistake(file, "TOML", f"nested too deeply, allowed: brackets <= {DEEPEST_NESTING}")
+
+
+def _check_keys(table: dict[str, Any], file: str) -> None:
+    """Messages name keys, and each mistake is a message."""
+    keys = 0
+    inside: list[Any] = [table]
+    while inside:
+        here = inside.pop()
+        if isinstance(here, dict):
+            keys += len(here)
+            for key in here:
+                if len(key) > LONGEST_KEY:
+                    raise _mistake(file, f"{key[:LONGEST_KEY]!r}...", f"a key is too long, allowed: length <= {LONGEST_KEY}")
+        values = here.values() if isinstance(here, dict) else here
+        inside += [inner for inner in values if isinstance(inner, dict | list)]
+    if keys > MOST_KEYS:
+        raise _mistake(file, "file", f"{keys} keys, allowed: keys <= {MOST_KEYS}")
 
 
 def _mistake(file: str, key: str, allowed: str) -> ScenarioError:

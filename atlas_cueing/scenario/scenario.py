@@ -8,7 +8,9 @@ from typing import Annotated, Any
 import tomli_w
 from pydantic import BeforeValidator
 
+from ..errors import InputError
 from ..recording.recorder import MAX_CHUNK_TICKS
+from ..vehicles.private_copy import beside, read_users
 from .cueing import BlendTable, CueingTable, PreviewTable
 from .mistakes import nearest
 from .platform import NAME, Platform, presets
@@ -17,6 +19,7 @@ from .vehicle import Flight, LiveFlight, VehicleTable
 
 # The other topics are what the run is evaluated from.
 DISPENSABLE_TOPICS = ("/tf",)
+_MOST_SKIPPED = 20  # topics; a log has eight
 
 
 def _known_preset(value: Any) -> str:
@@ -44,7 +47,7 @@ class PlatformChoice(Table):
 
 
 def _as_tuple(value: Any) -> Any:
-    if not isinstance(value, list | tuple):
+    if not isinstance(value, list | tuple) or len(value) > _MOST_SKIPPED:
         raise refuse("a list of topics")
     return tuple(value)
 
@@ -75,11 +78,15 @@ class ScenarioFile(Table):
 
 @dataclass(frozen=True, slots=True)
 class Scenario:
-    """A scenario that can be flown: the file with every override in it, its platform, and the folder of the user's scripts."""
+    """A scenario: the file with every override in it, its platform, and the folder of the user's scripts.
+
+    trust_models: whether a user's script may be flown; without it everything but the flight can be had.
+    """
 
     file: ScenarioFile
     platform: Platform
     folder: Path
+    trust_models: bool = False
 
     @property
     def name(self) -> str:
@@ -88,7 +95,8 @@ class Scenario:
 
     @property
     def flight(self) -> Flight:
-        """What the vehicle flies without a clock. Raises InputError for a source that flies only live."""
+        """What the vehicle flies without a clock. Raises InputError when that flies only live, or is a script not trusted."""
+        self._check_trust()
         return self.file.vehicle.flight(self.file.duration_s, self.folder)
 
     @property
@@ -98,8 +106,18 @@ class Scenario:
 
     @property
     def live_flight(self) -> LiveFlight:
-        """What the vehicle flies in real time, whatever its source."""
+        """What the vehicle flies in real time, whatever its source. Raises InputError for a script that is not trusted."""
+        self._check_trust()
         return self.file.vehicle.live_flight(self.file.duration_s, self.folder)
+
+    def _check_trust(self) -> None:
+        """A script can hold whatever JSBSim understands: it is a program, of whoever wrote it."""
+        script = self.file.vehicle.user_script(self.folder)
+        if script is not None and not self.trust_models:
+            raise InputError(
+                f"{script}: this script is not one of JSBSim's own, and it is a program; "
+                "if you trust whoever wrote it, fly it with --trust-models"
+            )
 
     def scenario_toml(self) -> str:
         """The scenario with all defaults written out; its platform is `platform.toml`, and a user's script lies beside it."""
@@ -121,8 +139,8 @@ class Scenario:
         files = {}
         script = self.file.vehicle.user_script(self.folder)
         if script is not None:
-            files[script.name] = script.read_bytes()
-            files |= {path.name: path.read_bytes() for path in _beside(script, files[script.name], self.folder)}
+            files[script.name] = read_users(script)
+            files |= {path.name: read_users(path) for path in _beside(script, files[script.name])}
         return files | {"scenario.toml": self.scenario_toml().encode(), "platform.toml": self.platform_toml().encode()}
 
 
@@ -131,8 +149,8 @@ def _plain(table: Table) -> dict[str, Any]:
     return table.model_dump(exclude_none=True)
 
 
-def _beside(script: Path, content: bytes, folder: Path) -> list[Path]:
+def _beside(script: Path, content: bytes) -> list[Path]:
     """The script's own file of initial conditions, when it lies in the script's folder."""
     named = re.search(rb"initialize\s*=\s*[\"']([\w.-]+)[\"']", content)
-    path = script.parent / f"{named[1].decode().removesuffix('.xml')}.xml" if named else script
-    return [path] if path != script and path.is_file() and path.resolve().is_relative_to(folder.resolve()) else []
+    path = beside(script, named[1].decode()) if named else None
+    return [path] if path else []

@@ -11,7 +11,7 @@ Keys are those of `--set`. Every range has a stream of random numbers of its own
 every point of the grid gets the same draws, so that they compare.
 """
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
@@ -27,7 +27,7 @@ from ..errors import Mistake, ScenarioError
 from ..vehicles import own_aircraft, own_scripts
 from .cueing import METHODS
 from .load import resolve
-from .mistakes import SET, FileNamer, Key, dotted, mistakes_of, nearest, shown
+from .mistakes import SET, FileNamer, Key, dotted, mistakes_of, more, nearest, shown
 from .overrides import Overrides, apply_overrides, parse_overrides
 from .platform import presets
 from .reading import read_toml
@@ -35,7 +35,10 @@ from .scenario import Scenario
 from .table import Finite, Table, whole
 
 MAX_RUNS = 100_000  # of one file; a grid of a few more keys than meant has millions
-MAX_MISTAKES = 50  # of one sweep, where a single wrong value may spoil thousands of runs
+MAX_KEYS = 16  # of one sweep; each is a stream of random numbers as long as the draws
+MAX_MISTAKES = 50  # of one sweep, where a single wrong value may spoil thousands of runs ...
+MAX_SPOILT = 500  # ... and that many runs are looked at for other mistakes
+_LONGEST_PATTERN = 200  # characters; names are shorter
 
 _SWEEP = "sweep"
 _COUNTS = ("draws", "seed")
@@ -89,8 +92,8 @@ def load_variants(path: Path, overrides: Sequence[str] = (), *, trust_models: bo
     """Every run that a scenario file stands for: one, or as many as its sweep has.
 
     `overrides` are as for `load_scenario`; one of a swept key takes the key out of the sweep, and one below `sweep.` changes
-    the sweep itself; `trust_models` is as there. Raises ScenarioError with every mistake of the sweep, or else of the runs, each
-    once.
+    the sweep itself; `trust_models` is as there. Raises ScenarioError with every mistake of the sweep, or else of the runs,
+    each once.
     """
     settings = parse_overrides(overrides)
     of_sweep = {key: value for key, value in settings.items() if key[0] == _SWEEP}
@@ -103,19 +106,23 @@ def load_variants(path: Path, overrides: Sequence[str] = (), *, trust_models: bo
     if table is None:
         return [Variant(resolve(data, others, path, trust_models=trust_models), {})]
     points = _points(table, others, FileNamer(str(path), of_sweep))
-    return _resolved(data, others, points, path)
+    return _resolved(data, others, points, path, trust_models)
 
 
-def _resolved(data: dict[str, Any], others: Overrides, points: list[Overrides], path: Path) -> list[Variant]:
-    variants = []
+def _resolved(
+    data: dict[str, Any], others: Overrides, points: Iterable[Overrides], path: Path, trust_models: bool
+) -> list[Variant]:
+    variants, spoilt = [], 0
     found: dict[Mistake, None] = {}  # an ordered set
     for point in points:
         swept = {dotted(key): value for key, value in point.items()}
         try:
-            variants.append(Variant(resolve(deepcopy(data), {**others, **point}, path), swept))
+            scenario = resolve(deepcopy(data), {**others, **point}, path, trust_models=trust_models)
+            variants.append(Variant(scenario, swept))
         except ScenarioError as error:
             found |= dict.fromkeys(_of_sweep(mistake, swept, path) for mistake in error.mistakes)
-            if len(found) >= MAX_MISTAKES:
+            spoilt += 1
+            if len(found) >= MAX_MISTAKES or spoilt >= MAX_SPOILT:
                 break
     if found:
         raise ScenarioError(list(found)[:MAX_MISTAKES])
@@ -130,7 +137,7 @@ def _of_sweep(mistake: Mistake, swept: Collection[str], path: Path) -> Mistake:
     return Mistake(str(path), f"{_SWEEP}.{mistake.key}", mistake.value, mistake.allowed)
 
 
-def _points(table: Any, others: Overrides, name_file: FileNamer) -> list[Overrides]:
+def _points(table: Any, others: Overrides, name_file: FileNamer) -> Iterator[Overrides]:
     """What every run sets."""
     if not isinstance(table, dict):
         raise ScenarioError([Mistake(name_file((_SWEEP,)), _SWEEP, shown(table), "allowed: a table")])
@@ -148,10 +155,10 @@ def _points(table: Any, others: Overrides, name_file: FileNamer) -> list[Overrid
             grid[key] = choice
     mistakes += [Mistake(name_file((_SWEEP,)), _SWEEP, "", wrong) for wrong in _disagreement(grid, ranges, counts)]
     if mistakes:
-        raise ScenarioError(mistakes)
+        raise ScenarioError(mistakes[:MAX_MISTAKES] + more(len(mistakes) - MAX_MISTAKES, name_file((_SWEEP,))))
     grid = {key: values for key, values in grid.items() if key not in others}
     ranges = {key: bounds for key, bounds in ranges.items() if key not in others}
-    return list(_combined(grid, ranges, counts))
+    return _combined(grid, ranges, counts)
 
 
 def _counts(table: dict[str, Any], name_file: FileNamer) -> tuple[_Counts, list[Mistake]]:
@@ -181,6 +188,8 @@ def _choice(key: Key, value: Any) -> Sequence[Any] | _Range | str:
         return _range(value)
     if isinstance(value, str) and key in _NAMES:
         known = _NAMES[key]()
+        if len(value) > _LONGEST_PATTERN:
+            return f"a pattern is too long, allowed: length <= {_LONGEST_PATTERN}"
         return sorted(name for name in known if fnmatchcase(name, value)) or f"no such name; {nearest(value, known)}"
     return _ALLOWED
 
@@ -199,6 +208,8 @@ def _disagreement(grid: Choices, ranges: dict[Key, _Range], counts: _Counts) -> 
         return ["nothing to sweep; " + _ALLOWED]
     if bool(ranges) != (counts.draws is not None):
         return ["ranges and draws go together: draws = N takes N values out of every range"]
+    if len(grid) + len(ranges) > MAX_KEYS:
+        return [f"{len(grid) + len(ranges)} keys, allowed: keys <= {MAX_KEYS}"]
     runs = prod(map(len, grid.values())) * (counts.draws or 1)
     return [f"{runs} runs, allowed: runs <= {MAX_RUNS}"] if runs > MAX_RUNS else []
 

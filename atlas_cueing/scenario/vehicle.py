@@ -26,12 +26,13 @@ from ..vehicles.flightgear import DEFAULT_PORT, DEFAULT_RATE_HZ, LOOPBACK
 from .mistakes import Key, nearest
 from .recorded import RecordedFlight
 from .signal import SignalTable, Time, signal_rules
-from .table import Finite, Table, number, refuse, text, whole
+from .table import Finite, Table, number, object_to, refuse, text, whole
 
 Flight: TypeAlias = ScriptFlight | AircraftFlight | SignalFlight
 LiveFlight: TypeAlias = Flight | FlightgearFlight | RecordedFlight
 
 _LONGEST_PROPERTY = 200  # characters; the longest of JSBSim's own has 70
+_MOST_TABLES = 5000  # of one kind; as many inputs as the largest file holds
 _LONGEST_PATH = 4096  # characters
 
 _JSBSIM, _SIGNAL, _FLIGHTGEAR, _RECORDING = "jsbsim", "signal", "flightgear", "recording"
@@ -137,6 +138,8 @@ def _tables(name: str) -> BeforeValidator:
     def check(value: Any) -> Any:
         if not isinstance(value, list | tuple):
             raise refuse(f"tables, written [[vehicle.{name}]]")
+        if len(value) > _MOST_TABLES:
+            raise object_to(f"{len(value)} tables [[vehicle.{name}]], allowed: at most {_MOST_TABLES}")
         return tuple(value)
 
     return BeforeValidator(check)

@@ -15,6 +15,7 @@ from .private_copy import copy_aircraft, copy_script
 
 # What JSBSim's C++ exceptions become in Python; its own jsbsim.BaseError is a RuntimeError.
 JSBSIM_ERRORS = (RuntimeError, ValueError, IndexError, ArithmeticError, MemoryError, OSError)
+LATEST_END = 1e6  # s, of a script; the longest own one, a balloon's, goes on for a week (6e5 s)
 _WRITERS = ("simulation/do_linearization", "simulation/write-state-file")  # setting them writes a file
 _OUTPUT = "simulation/output/"  # properties of the outputs that were left out; scripts may go on setting them
 _SILENT = 0  # debug level: no reports on what was loaded
@@ -46,7 +47,9 @@ def _load_script(fdm: jsbsim.FGFDMExec, script: Path, folder: Path, log: JsbsimL
     tree, copy = copy_script(script, folder)
     for run in tree.iter("run"):
         _check_step(run.get("dt", ""), script)
-    _try(lambda: fdm.load_script(str(copy)), str(script), {str(copy): str(script), str(folder): str(root())}, log)
+        _check_end(run.get("end", ""), script)
+    originals = {str(copy): str(script), f"{folder}/aircraft": f"{root()}/aircraft", str(folder): str(script.parent)}
+    _try(lambda: fdm.load_script(str(copy)), str(script), originals, log)
     _check_names(tree, script, fdm)
 
 
@@ -85,6 +88,16 @@ def _check_step(dt: str, script: Path) -> None:
         return
     if not 1.0 / MAX_RATE_HZ <= step <= 1.0 / MIN_RATE_HZ:
         raise InputError(f"{script}: dt = {dt} s, allowed: {1.0 / MAX_RATE_HZ:g} <= dt <= {1.0 / MIN_RATE_HZ:g}")
+
+
+def _check_end(end: str, script: Path) -> None:
+    """Refuse an end that is none, or never comes. What is no number JSBSim refuses."""
+    try:
+        time = float(end)
+    except ValueError:
+        return
+    if not 0.0 <= time <= LATEST_END:
+        raise InputError(f"{script}: end = {end} s, allowed: 0 <= end <= {LATEST_END:g}")
 
 
 def _check_names(tree: Element, script: Path, fdm: jsbsim.FGFDMExec) -> None:

@@ -2,19 +2,24 @@
 
 A script or model may carry `<output>` (a file in the working directory or at any path, UDP or TCP) and `<input port>` (listens
 on all interfaces). Switching them off after loading is too late: file and socket are open by then. So JSBSim is given copies
-without them, in a private folder that is gone before the first step.
+without them, in a private folder that is gone before the first step. A script names files only by plain names: its aircraft is
+one of JSBSim's own, its initial conditions lie beside it or with the aircraft, and no element refers to any other file.
 """
 
 import os
+import re
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
 from ..errors import InputError
-from .library import own_aircraft, suggestion
+from .library import own_aircraft, root, suggestion
 
 MAX_FILE_BYTES = 20_000_000  # the largest own file has 0.4 MB
+MAX_USERS_BYTES = 1 << 20  # of a user's file, which goes along with the log; the largest own script has 11 kB
 MAX_DEPTH = 100  # of nested elements; own files stay below 20, and JSBSim's parser overruns its stack at some 100,000
 _PORTS = ("output", "input")  # as children of the root; deeper ones are names of signals in control systems
+SCRIPT_COPY = "script copy.xml"  # with a space, which no file of initial conditions has
+_PLAIN_NAME = re.compile(r"[\w.-]+", re.ASCII)
 
 
 def copy_script(script: Path, folder: Path) -> tuple[ET.Element, Path]:
@@ -23,16 +28,40 @@ def copy_script(script: Path, folder: Path) -> tuple[ET.Element, Path]:
     Raises InputError when the script is unreadable, not a script, or asks for an aircraft that JSBSim does not ship.
     """
     tree = _read(script, "runscript")
-    use = tree.find("use")
-    aircraft = use.get("aircraft", "") if use is not None else ""
-    if use is None or aircraft not in own_aircraft():
+    _leave_out_ports(tree)
+    _refuse_files(tree, script)
+    use = _use(tree, script)
+    aircraft, initial = use.get("aircraft", ""), use.get("initialize", "")
+    if aircraft not in own_aircraft():
         raise InputError(f"{script}: no aircraft {aircraft!r} in JSBSim{suggestion(aircraft, own_aircraft())}")
-    beside = (script.parent / f"{use.get('initialize', '').removesuffix('.xml')}.xml").resolve()
-    if beside.is_file():
-        _read(beside, "initialize")
-        use.set("initialize", str(beside))
+    if initial and not _PLAIN_NAME.fullmatch(initial):
+        raise InputError(f"{script}: initialize = {initial!r}, allowed: a file's name of letters, digits, '.', '_', '-'")
+    own_initial = beside(script, initial)
     copy_aircraft(aircraft, folder)
-    return tree, _write(tree, folder / "script.xml")
+    if own_initial:
+        conditions = _read(own_initial, "initialize")
+        _refuse_files(conditions, own_initial)
+        use.set("initialize", str(_write(conditions, folder / own_initial.name)))
+    return tree, _write(tree, folder / SCRIPT_COPY)
+
+
+def beside(script: Path, initialize: str) -> Path | None:
+    """The file of initial conditions in the script's own folder, links resolved; None when it is not there."""
+    folder = script.parent.resolve()
+    path = (folder / f"{initialize.removesuffix('.xml')}.xml").resolve()
+    return path if path.is_file() and path.parent == folder and path != script.resolve() else None
+
+
+def read_users(path: Path) -> bytes:
+    """A user's file as it is. Raises InputError when it cannot be read or is larger than MAX_USERS_BYTES."""
+    try:
+        with path.open("rb") as file:
+            content = file.read(MAX_USERS_BYTES + 1)
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+    if len(content) > MAX_USERS_BYTES:
+        raise InputError(f"{path}: too large, allowed: size <= {MAX_USERS_BYTES} bytes")
+    return content
 
 
 def copy_aircraft(aircraft: str, folder: Path) -> Path:
@@ -43,13 +72,32 @@ def copy_aircraft(aircraft: str, folder: Path) -> Path:
     for entry in model.parent.iterdir():
         if entry != model:
             (copies / entry.name).symlink_to(os.path.realpath(entry))
-    _write(_read(model, "fdm_config"), copies / model.name)
+    tree = _read(model, "fdm_config")
+    _leave_out_ports(tree)
+    _write(tree, copies / model.name)
     return copies.parent
 
 
-def _write(tree: ET.Element, path: Path) -> Path:
+def _leave_out_ports(tree: ET.Element) -> None:
     for element in [child for child in tree if child.tag in _PORTS]:
         tree.remove(element)
+
+
+def _refuse_files(tree: ET.Element, path: Path) -> None:
+    """A script needs no files but those of its `use`; models, which JSBSim ships, are made of many."""
+    for element in tree.iter():
+        if "file" in element.attrib:
+            raise InputError(f"{path}: <{element.tag} file={element.attrib['file']!r}>, allowed: no references to files")
+
+
+def _use(tree: ET.Element, script: Path) -> ET.Element:
+    found = tree.findall("use")
+    if len(found) != 1:  # or JSBSim might look at another than we do
+        raise InputError(f"{script}: {len(found)} elements <use>, allowed: one, with an aircraft of JSBSim's own")
+    return found[0]
+
+
+def _write(tree: ET.Element, path: Path) -> Path:
     ET.ElementTree(tree).write(path, encoding="utf-8", xml_declaration=True)
     return path
 
@@ -57,8 +105,9 @@ def _write(tree: ET.Element, path: Path) -> Path:
 def _read(path: Path, root_tag: str) -> ET.Element:
     """Parse a file of the given root element; InputError says what is wrong with it otherwise."""
     try:
-        if path.stat().st_size > MAX_FILE_BYTES:
-            raise InputError(f"{path}: {path.stat().st_size} bytes; at most {MAX_FILE_BYTES}")
+        size, most = path.stat().st_size, MAX_FILE_BYTES if path.is_relative_to(root()) else MAX_USERS_BYTES
+        if size > most:
+            raise InputError(f"{path}: {size} bytes; at most {most}")
         parser = ET.XMLParser(target=_ShallowTree(path))  # noqa: S314  expat itself refuses entity bombs
         tree: ET.Element = ET.parse(path, parser).getroot()  # noqa: S314
     except (OSError, ET.ParseError, ValueError, LookupError) as error:

@@ -21,6 +21,16 @@ def test_an_existing_log_needs_force(tmp_path: Path) -> None:
     assert log.read_text() == "kept"
 
 
+def test_what_is_left_of_another_run_needs_force_where_a_new_one_begins(tmp_path: Path) -> None:
+    part = tmp_path / "new.mcap.part"
+    part.write_text("kept")
+    with pytest.raises(OutputError, match=r"new\.mcap\.part is there.*recover .*new\.mcap\.part -o NAME\.mcap.*--force"):
+        check_output(tmp_path / "new.mcap", force=False, fresh=True)
+    check_output(tmp_path / "new.mcap", force=True, fresh=True)
+    check_output(tmp_path / "new.mcap", force=False)  # as for recover, whose input it may be
+    assert part.read_text() == "kept"
+
+
 @pytest.mark.parametrize("force", [False, True])
 def test_what_can_never_be_a_log(tmp_path: Path, force: bool) -> None:
     with pytest.raises(OutputError, match="no regular file"):

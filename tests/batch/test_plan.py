@@ -59,5 +59,6 @@ def test_how_long_it_may_take(tmp_path: Path) -> None:
 
 def test_a_script_that_states_nonsense_is_planned_and_fails_later(tmp_path: Path) -> None:
     (tmp_path / "odd.xml").write_text('<runscript><run start="x" end="1e" dt="-3"/></runscript>')
-    (odd, *_) = planned(tmp_path, "vehicle.script=odd.xml")
+    planned(tmp_path)
+    (odd, *_) = plan([tmp_path / "sweep.toml"], ["vehicle.script=odd.xml"], trust_models=True)
     assert (odd.duration, odd.step) == (0.25, pytest.approx(1 / 120))

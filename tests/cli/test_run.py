@@ -1,5 +1,6 @@
 import json
 import re
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -99,7 +100,9 @@ def test_a_vehicle_that_fails(command: Command, tmp_path: Path) -> None:
 
 
 def test_a_violation_is_a_finding(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("atlas_cueing.batch.evaluate.violations", lambda _: ["wheel_speed_logged = 1.5 of the limit"])
+    monkeypatch.setattr(
+        import_module("atlas_cueing.scenario.evaluate"), "violations", lambda _: ["wheel_speed_logged = 1.5 of the limit"]
+    )
     ended = command("run", "s.toml")
     assert ended.status == 1
     assert ended.err == "wheel_speed_logged = 1.5 of the limit\n"

@@ -33,7 +33,7 @@ def test_very_short_flights_have_figures_too(count: int) -> None:
 
 
 def test_names_carry_units() -> None:
-    bare = {"ticks", "turns_roll", "turns_pitch", "turns_yaw"}
+    bare = {"cost", "cost_force", "cost_rate", "ticks", "turns_roll", "turns_pitch", "turns_yaw"}
     assert {name for name in metrics(still(3)) if not name.endswith(UNITS)} == bare
 
 

@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 State = tuple[float, float, float]
 
 AXES = ("wheel 1", "wheel 2", "wheel 3", "stage x", "stage y", "stage z")
-ROUNDING = 1.0 + 1e-6  # the guard's room for rounding
+ROUNDING = 1.0 + 5e-7  # the guard's room for rounding
 REST: State = (0.0, 0.0, 0.0)
 STANDING = Command(0.0, ZERO, ZERO, ZERO, ZERO, ZERO)
 

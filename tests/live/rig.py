@@ -23,7 +23,7 @@ from atlas_cueing.signals import Motion, Tick, Timing, VehicleState
 
 Array = NDArray[np.float64]
 
-ROUNDING = 1.1e-6  # share of a limit that differences over a tick may pass it by
+ROUNDING = 1e-6  # share of a limit that differences over a tick may pass it by
 _FILE = """
 name = "live"
 duration_s = 5.0

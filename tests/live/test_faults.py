@@ -289,17 +289,17 @@ def test_parking_from_upside_down_ends_in_time() -> None:
 @pytest.mark.parametrize("rate_hz", [100.0, 500.0, 1000.0])
 @pytest.mark.parametrize("platform", ["atlas-2.9m", "atlas-tabletop", "atlas-orthogonal"])
 def test_a_walk_among_faults(platform: str, rate_hz: float) -> None:
+    """A longer one: the same with more ticks and other seeds."""
     rig = walk(platform, rate_hz, 2000, seed=round(rate_hz))
+    assert len({timing.state for timing in rig.tape.timings}) >= 2
     assert rig.excess() <= ROUNDING
 
 
 def walk(platform: str, rate_hz: float, ticks: int, seed: int) -> Rig:
-    """Faults, buttons and good spells at random. It has been in every state by the end, or the walk was none."""
+    """Faults, buttons and good spells at random."""
     random, rig = Random(seed), Rig(1.0 / rate_hz, platform, rate=0.3)
-    visited = set()
     faults = [fault for fault, _, _ in MATRIX.values()]
     while len(rig.tape.commands) < ticks:
-        visited.add(rig.state)
         rig.source.raises = None
         kind = random.random()
         if kind < 0.15:
@@ -307,5 +307,4 @@ def walk(platform: str, rate_hz: float, ticks: int, seed: int) -> Rig:
         elif kind < 0.6:
             rig.press(random.choice(["engage", "reset", "engage", "reset", "hold", "park"]))
         rig.fly(random.choice([rig.dt, 0.05, 0.5, 1.2]))
-    assert len(visited) >= 3 or ticks < 5000
     return rig

@@ -1,7 +1,9 @@
 """When the guard opens, latches and opens again; time; what is no number; limits that make no sense."""
 
+import re
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import FrozenInstanceError, fields, replace
+from decimal import Decimal
 from math import inf, nan, nextafter, ulp
 
 import pytest
@@ -65,8 +67,8 @@ def test_the_first_refusal_latches_with_its_reason() -> None:
     wrong = replace(moving(5), p_WS_W=(0.3, 0.0, 0.0))
     given = [guard.check(wrong)]
     reason = guard.reason
-    assert reason.startswith("stage x position by the speed 0.3, allowed: ")
-    assert reason.endswith(f" at {5 * DT} s")
+    told = rf"stage x position by the speed 0\.3, allowed: \S+ <= value <= [-.e0-9]+, at {5 * DT} s"
+    assert re.fullmatch(told, reason), reason
     given += [guard.check(replace(moving(n), p_WS_W=(0.9, 0.0, 0.0))) for n in range(6, 10)]
     given += [guard.stop(10 * DT)]
     assert (guard.reason, guard.stopping) == (reason, True)
@@ -79,8 +81,9 @@ def test_the_first_refusal_latches_with_its_reason() -> None:
 def test_fit_commands_do_not_open_it_again() -> None:
     guard = underway()
     guard.stop(5 * DT)
-    while not guard.standing:
-        guard.stop(guard._last.time + DT)
+    for n in range(6, 500):
+        guard.stop(n * DT)
+    assert guard.standing
     held = guard._last
     for n in range(1, 5):
         fit = replace(held, time=held.time + n * DT)
@@ -124,7 +127,10 @@ def test_a_start_outside_the_travel_is_refused(axis: int, sign: float) -> None:
 @pytest.mark.parametrize("time", [nan, inf, nextafter(1e10, inf), nextafter(-1e10, -inf)])
 def test_a_start_at_no_time_is_refused(time: float) -> None:
     guard = fresh()
-    with pytest.raises(InputError, match=r"time .* allowed: -10000000000 <= value <= 10000000000"):
+    with pytest.raises(
+        InputError,
+        match=r"^start from a standstill inside the travel: time \S+, allowed: -10000000000 <= value <= 10000000000$",
+    ):
         guard.start(replace(STANDING, time=time))
     assert guard.check(replace(STANDING, time=time)) == replace(STANDING, time=DT)
     assert guard.reason.startswith("time ")
@@ -217,10 +223,46 @@ def test_a_time_may_be_early_by_its_rounding(ulps: int, fit: bool) -> None:
     assert (guard.check(one) is one) == fit
 
 
-@pytest.mark.parametrize("time", [nan, inf, -5.0, 4 * DT, 4 * DT + 0.2, 1e300])
+@pytest.mark.parametrize("time", [None, "now", Decimal("0.04"), 5 * DT + 0j])
+def test_a_time_of_another_kind_stops_it(time: object) -> None:
+    """Also one that compares with numbers but does not add to them; and nothing is kept of it."""
+    guard = underway()
+    assert guard.check(spoilt(moving(5), "time", 0, time)) == underway().stop(5 * DT)
+    assert guard.reason.startswith("no command at all: ")
+    assert guard.reason.endswith(f", at {time} s")
+    assert guard.check(spoilt(moving(6), "time", 0, time)).time == 6 * DT
+
+
+def test_a_time_may_be_a_whole_number() -> None:
+    guard = Guard(1.0, WHEELS, STAGE)
+    assert [guard.stop(time).time for time in (5, 6, 7)] == [5, 6, 7]
+
+
+def test_what_was_put_out_cannot_be_changed() -> None:
+    with pytest.raises(FrozenInstanceError):
+        STANDING.time = 1.0  # type: ignore[misc]
+    assert not hasattr(STANDING, "__dict__")
+
+
+def test_lists_of_numbers_are_as_good_as_tuples() -> None:
+    lists: dict[str, object] = {field: list(getattr(moving(5), field)) for field in FIELDS[1:]}
+    guard, same = underway(), replace(moving(5), **lists)
+    assert guard.check(same) is same
+    assert not guard.standing
+    assert guard.stop(6 * DT) == underway(5).stop(6 * DT)
+
+
+@pytest.mark.parametrize("time", [None, "", nan, inf, -5.0, 4 * DT, 4 * DT + 0.2, 1e300])
 def test_the_stop_keeps_time_when_it_is_given_none(time: float) -> None:
     guard = underway()
     assert [guard.stop(time).time for _ in range(3)] == pytest.approx([5 * DT, 6 * DT, 7 * DT], abs=1e-12)
+
+
+@pytest.mark.parametrize("time", [DT * (1.0 - 1e-6), DT + 0.1])
+def test_the_stop_takes_any_time_that_a_command_may_have(time: float) -> None:
+    guard = fresh()
+    guard.start(STANDING)
+    assert guard.stop(time).time == time
 
 
 def test_a_late_tick_of_the_stop_is_its_next_one() -> None:
@@ -248,7 +290,7 @@ def test_limits_that_make_no_sense_are_refused(bad: float, place: int) -> None:
 def test_a_travel_without_room_between_two_ticks_is_refused(place: int) -> None:
     unused = STAGE.acceleration[place] * DT * DT / 8.0
     for bad in (0.0, -1.0, nan, inf, unused):
-        with pytest.raises(InputError, match=f"{AXES[3 + place]} travel .* m, allowed: {unused:.3g} < value < inf"):
+        with pytest.raises(InputError, match=f"{AXES[3 + place]} travel {bad:g} m, allowed: {unused:.3g} < value < inf"):
             Guard(DT, WHEELS, replace(STAGE, travel=spread(STAGE.travel, place, bad)))
     Guard(DT, WHEELS, replace(STAGE, travel=spread(STAGE.travel, place, nextafter(unused, inf))))
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import fields, replace
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -36,7 +37,7 @@ def test_flights_pass_untouched(name: str, method: str) -> None:
     vehicle: Vehicle = SignalVehicle(flight) if isinstance(flight, SignalFlight) else JsbsimVehicle(flight)
     pipeline = build(scenario, vehicle.dt)
     guard = Guard(vehicle.dt, scenario.platform.wheel_speed_limits(), scenario.platform.stage_motion_limits())
-    for _ in range(2000):
+    for _ in range(1000):
         one = of(pipeline.step(vehicle.state))
         assert guard.check(one) is one, guard.reason
         assert vehicle.advance()
@@ -54,7 +55,7 @@ def test_smoothing_of_wild_cues_passes_untouched(name: str, dt: float) -> None:
     def driven(m: Motion) -> Command:
         return Command(m.time, apply((x, y, z), m.w_WS_W), apply((x, y, z), m.alpha_WS_W), m.p_WS_W, m.v_WS_W, m.a_WS_W)
 
-    for cue in wild(dt, 1500, np.random.default_rng(11)):
+    for cue in wild(dt, 1000, np.random.default_rng(11)):
         one = driven(step(cue))
         assert guard.check(one) is one, guard.reason
 
@@ -94,14 +95,15 @@ def wrong(one: Command, random: np.random.Generator) -> Command:
 def test_of_hostile_commands_nothing_comes_out_that_breaks_a_limit(dt: float, seed: int) -> None:
     random, guard, passed, stops = np.random.default_rng(seed), Guard(dt, WHEELS, STAGE), 0, 0
     ticks = 0
-    while ticks < 8000:
+    while ticks < 5000:
         guard.start(replace(STANDING, time=float(random.uniform(-1e3, 1e3)), p_WS_W=(0.5, -0.3, 0.2) if stops % 2 else ZERO))
         outputs = [guard._last]
-        for one in hostile(dt, random, guard):
+        for one in islice(hostile(dt, random, guard), 5000):
             outputs.append(guard.check(one))
             passed += outputs[-1] is one
             if guard.standing and guard.stopping:
                 break
+        assert guard.standing
         ticks, stops = ticks + len(outputs), stops + 1
         assert excess(dt, outputs) <= ROUGH, guard.reason
     assert stops > 10

@@ -39,7 +39,7 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, object]]:
     return made
 
 
-def test_garbage_is_collected_once_and_then_left(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_garbage_is_collected_once_and_then_left() -> None:
     assert gc.isenabled()
     with punctual(priority=False) as found:
         assert not gc.isenabled()

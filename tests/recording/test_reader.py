@@ -145,7 +145,9 @@ def test_a_crafted_log_is_read(tmp_path: Path) -> None:
         (GOOD[:31] + b"\x0a" + GOOD[32:], "not 8 doubles"),
         (record_template(1, GOOD[31:] + b"\x09" + bytes(8)), "not 8 doubles"),
         (GOOD[:-1], "the last message of a chunk is cut"),
-        (GOOD + b"\x05", "damaged"),
+        (GOOD + b"\x05", "the last record of a chunk is cut"),
+        (GOOD + struct.pack("<BQ", 7, 0), "the last record of a chunk is cut"),
+        (struct.pack("<BQH", 5, 2, 1) * 100, "a message in a chunk has 2 bytes, allowed: at least 22"),
     ],
 )
 def test_messages_of_another_layout_are_refused(tmp_path: Path, messages: bytes, why: str) -> None:
@@ -174,6 +176,42 @@ def test_another_compression_is_refused_by_name(tmp_path: Path) -> None:
     writer.add_metadata("atlas.run", {})
     writer.finish()
     refused(tmp_path / "x.mcap", stream.getvalue(), "compression 'lz4', allowed: 'zstd'")
+
+
+def test_a_damaged_attachment_is_refused_by_its_own_checksum(tmp_path: Path) -> None:
+    """Before anything is done with it: the checksum of the whole comes at the end."""
+    stream = io.BytesIO()
+    container = Container(lambda data: stream.write(data.replace(b"travel_m = 1.0", b"travel_m = 9.0")))
+    container.add_attachment("platform.toml", "application/toml", b"travel_m = 1.0")
+    container.add_metadata("atlas.run", {})
+    container.finish()
+    refused(tmp_path / "x.mcap", stream.getvalue(), "checksum of the attachment is wrong")
+
+
+def test_files_and_schemas_in_a_log_count_towards_its_size(tmp_path: Path) -> None:
+    stream = io.BytesIO()
+    container = Container(stream.write)
+    for number in range(20):
+        container.add_attachment(f"{number}.toml", "application/toml", bytes(1000))
+    container.add_metadata("atlas.run", {})
+    container.finish()
+    (tmp_path / "x.mcap").write_bytes(stream.getvalue())
+    assert len(read_log(tmp_path / "x.mcap", max_bytes=20_000).attachments) == 20
+    with pytest.raises(LogError, match="content of the log is larger than allowed"):
+        read_log(tmp_path / "x.mcap", max_bytes=19_000)
+
+
+def test_a_state_of_other_types_is_refused(tmp_path: Path) -> None:
+    """Its schema calls three doubles a time, a state and a reason."""
+    stream = io.BytesIO()
+    container = Container(stream.write)
+    container.add_channel(
+        "/status", "atlas.Status", flat_schema(Topic("/status", "atlas.Status", ("time_s", "state", "reason")))
+    )
+    container.add_metadata("atlas.run", {})
+    container.add_chunk(EncodedChunk(flat_template(1, 3).tobytes(), {1: np.zeros((1, 2), dtype=np.uint64)}))
+    container.finish()
+    refused(tmp_path / "x.mcap", stream.getvalue(), "is not a time, a state and a reason")
 
 
 def test_a_schema_that_makes_no_sense_is_one_line(tmp_path: Path) -> None:

@@ -64,7 +64,7 @@ def test_a_singular_platform_is_refused(tmp_path: Path) -> None:
 
 
 def test_limits_that_leave_no_room_are_refused(tmp_path: Path) -> None:
-    scenario = loaded(tmp_path, "platform.stage_limits.travel_m=1e-300")
+    scenario = loaded(tmp_path, "platform.stage_limits.travel_m=1e-6")
     with pytest.raises(InputError, match=r"scenario 'short' on platform 'atlas-2.9m' at 100 Hz: "):
         build(scenario, 0.01)
 

@@ -91,9 +91,10 @@ def test_directions_are_normalised() -> None:
     [
         ("sphere", "radius_m", 0, "0.001 <= value <= 100"),
         ("wheel_limits", "speed_rad_s", [1, 2], "a number, or a list of three"),
-        ("wheel_limits", "jerk_rad_s3", -1, "0 < value"),
-        ("stage_limits", "travel_m", float("inf"), "0 < value"),
+        ("wheel_limits", "jerk_rad_s3", -1, "1e-06 <= value"),
+        ("stage_limits", "travel_m", float("inf"), "1e-06 <= value"),
         ("rider", "head_m", [0, 0, 1.5], r"\|head_m\| <= 1.45"),
+        ("wheel_limits", "jerk_rad_s3", 1e-248, "1e-06 <= value"),  # its squares would be 0
         ("rider", "head_m", 0.5, "a list of three"),
     ],
 )

@@ -23,7 +23,7 @@ from .texts import AIRCRAFT, INITIAL, SCRIPT, SIGNALS, USER_SCRIPT
 def load(folder: Path, text: str) -> Flight:
     path = folder / "s.toml"
     path.write_text(text)
-    return load_scenario(path).flight
+    return load_scenario(path, trust_models=True).flight
 
 
 def test_own_script(tmp_path: Path) -> None:

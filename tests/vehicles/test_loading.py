@@ -42,6 +42,14 @@ def test_a_step_out_of_bounds_in_a_script_is_refused_before_it_kills_the_process
         load(ScriptFlight(script))
 
 
+@pytest.mark.parametrize("end", ["1e12", "inf", "nan", "-1"])
+def test_an_end_that_never_comes_is_refused(end: str, tmp_path: Path) -> None:
+    script = write_script(tmp_path / "s.xml")
+    script.write_text(script.read_text().replace('end="2"', f'end="{end}"'))
+    with pytest.raises(InputError, match=rf"s\.xml: end = {end} s, allowed: 0 <= end <= 1e\+06"):
+        load(ScriptFlight(script))
+
+
 @pytest.mark.parametrize("name", ["kml_output", "plotfile", "unitconversions", "737_cruise_steady_turn_simplex"])
 def test_own_scripts_that_cannot_fly_are_refused(name: str) -> None:
     with pytest.raises(InputError, match=name):

@@ -1,4 +1,3 @@
-import os
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -6,7 +5,14 @@ import pytest
 
 from atlas_cueing.errors import InputError
 from atlas_cueing.vehicles import own_aircraft, own_scripts
-from atlas_cueing.vehicles.private_copy import MAX_DEPTH, MAX_FILE_BYTES, copy_aircraft, copy_script
+from atlas_cueing.vehicles.private_copy import (
+    MAX_DEPTH,
+    MAX_FILE_BYTES,
+    MAX_USERS_BYTES,
+    copy_aircraft,
+    copy_script,
+    read_users,
+)
 
 from .flying import event, write_script
 
@@ -47,9 +53,63 @@ def test_files_beside_the_model_are_within_reach_and_the_original_is_not_touched
 
 def test_initial_conditions_beside_the_script_win_over_those_of_the_aircraft(tmp_path: Path) -> None:
     script = write_script(tmp_path / "s.xml", initialize="mine")
-    (tmp_path / "mine.xml").write_text("<initialize/>")
-    tree, _ = copy_script(script, tmp_path / "a")
-    assert tree.find("use").get("initialize") == os.path.realpath(tmp_path / "mine.xml")  # type: ignore[union-attr]
+    (tmp_path / "mine.xml").write_text("<initialize><altitude>7</altitude></initialize>")
+    for name in ("mine", "mine.xml"):
+        script = write_script(tmp_path / "s.xml", initialize=name)
+        tree, _ = copy_script(script, tmp_path / f"for {name}")
+        copy = Path(tree.find("use").get("initialize", ""))  # type: ignore[union-attr]
+        assert copy == tmp_path / f"for {name}" / "mine.xml", "a copy, which nobody changes between our look and JSBSim's"
+        assert parsed(copy).findtext("altitude") == "7"
+
+
+def test_initial_conditions_of_the_aircraft_keep_their_name(tmp_path: Path) -> None:
+    tree, _ = copy_script(write_script(tmp_path / "s.xml"), tmp_path / "a")
+    assert tree.find("use").get("initialize") == "reset01"  # type: ignore[union-attr]
+
+
+@pytest.mark.parametrize("name", ["../secret", "/etc/fstab", "a/../../secret", "..\\secret", "a b", "x\ty", "\u0130"])
+def test_initial_conditions_elsewhere_are_refused(name: str, tmp_path: Path) -> None:
+    """JSBSim would open them, and say what is in them when they are not what it wants."""
+    folder = tmp_path / "in"
+    folder.mkdir()
+    (tmp_path / "secret.xml").write_text("<initialize/>")
+    with pytest.raises(InputError, match=r"s\.xml: initialize = .*allowed: a file's name"):
+        copy_script(write_script(folder / "s.xml", initialize=name), tmp_path / "a")
+
+
+def test_a_link_that_leads_elsewhere_is_not_followed(tmp_path: Path) -> None:
+    folder = tmp_path / "in"
+    folder.mkdir()
+    (tmp_path / "secret.xml").write_text("<initialize/>")
+    (folder / "link.xml").symlink_to(tmp_path / "secret.xml")
+    tree, _ = copy_script(write_script(folder / "s.xml", initialize="link"), tmp_path / "a")
+    assert tree.find("use").get("initialize") == "link", "left to the aircraft's own folder, where there is none"
+
+
+@pytest.mark.parametrize("where", ["script", "initial"])
+def test_references_to_files_are_refused(where: str, tmp_path: Path) -> None:
+    inside = '<event><set name="x" file="/etc/passwd"/></event>'
+    (tmp_path / "mine.xml").write_text(f"<initialize>{inside if where == 'initial' else ''}</initialize>")
+    script = write_script(tmp_path / "s.xml", inside if where == "script" else "", initialize="mine")
+    with pytest.raises(InputError, match=r"<set file='/etc/passwd'>, allowed: no references to files"):
+        copy_script(script, tmp_path / "a")
+
+
+def test_initial_conditions_are_scanned_as_the_script_is(tmp_path: Path) -> None:
+    (tmp_path / "mine.xml").write_text("<initialize>" + "<a>" * 200_000)
+    with pytest.raises(InputError, match=rf"mine\.xml: elements nested deeper than {MAX_DEPTH}"):
+        copy_script(write_script(tmp_path / "s.xml", initialize="mine"), tmp_path / "a")
+
+
+def test_a_users_file_is_small(tmp_path: Path) -> None:
+    script = write_script(tmp_path / "s.xml", f"<!--{'x' * MAX_USERS_BYTES}-->")
+    with pytest.raises(InputError, match=f"at most {MAX_USERS_BYTES}"):
+        copy_script(script, tmp_path / "a")
+    with pytest.raises(InputError, match=f"allowed: size <= {MAX_USERS_BYTES}"):
+        read_users(script)
+    with pytest.raises(InputError, match="cannot be read: No such file"):
+        read_users(tmp_path / "gone.xml")
+    assert read_users(write_script(script)) == script.read_bytes()
 
 
 def test_lines_keep_their_numbers_through_comments(tmp_path: Path) -> None:
@@ -67,7 +127,9 @@ def test_lines_keep_their_numbers_through_comments(tmp_path: Path) -> None:
         ("<runscript>", "not a readable XML file"),
         ('<?xml version="1.0" encoding="foo"?><runscript/>', "not a readable XML file"),
         ("<output/>", "root element is <output>, must be <runscript>"),
-        ("<runscript/>", "no aircraft '' in JSBSim"),
+        ("<runscript/>", "0 elements <use>, allowed: one"),
+        ('<runscript><use aircraft="c172x"/><use aircraft="f16"/></runscript>', "2 elements <use>, allowed: one"),
+        ("<runscript><use/></runscript>", "no aircraft '' in JSBSim"),
         ('<runscript><use aircraft="c127x"/></runscript>', "no aircraft 'c127x' in JSBSim; did you mean 'c172x'"),
         ('<runscript><use aircraft="../../x"/></runscript>', "no aircraft '../../x' in JSBSim"),
         ("<runscript>" + "<a>" * 200_000, f"nested deeper than {MAX_DEPTH}"),
@@ -91,6 +153,10 @@ def test_missing_folders_and_huge_files_are_refused(tmp_path: Path) -> None:
         copy_script(tmp_path / "missing.xml", tmp_path)
     with pytest.raises(InputError, match="not a readable XML file"):
         copy_script(tmp_path, tmp_path)
+
+
+def test_a_huge_model_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("atlas_cueing.vehicles.private_copy.root", lambda: tmp_path)
     huge = tmp_path / "huge.xml"
     with huge.open("wb") as file:
         file.truncate(MAX_FILE_BYTES + 1)
