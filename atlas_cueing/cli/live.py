@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import InputError
+from .text import TRUST_MODELS
 
 if TYPE_CHECKING:
     from ..scenario import Scenario
@@ -18,7 +19,7 @@ Examples:
 
   atlas-cueing live scenarios/f16_rolls.toml --rate 1000 --priority --duration 60 --json
 
-  atlas-cueing live scenarios/flightgear.toml --setpoints 127.0.0.1:5600 --foxglove 8765
+  atlas-cueing live scenarios/live/flightgear.toml --setpoints 127.0.0.1:5600 --foxglove 8765
 
 Ctrl-C or SIGTERM parks the platform and finishes the log; a second one stops it at once. This program is not a safety device:
 emergency stop and the monitoring of speed and position belong to hardware.
@@ -55,6 +56,7 @@ def live(
         list[str] | None,
         typer.Option("--set", metavar="KEY=VALUE", help="Set any key of the scenario or its platform; repeatable."),
     ] = None,
+    trust_models: Annotated[bool, typer.Option("--trust-models", help=TRUST_MODELS)] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace an existing log.")] = False,
 ) -> None:
@@ -76,9 +78,9 @@ def live(
 
     if wait and not view:
         raise InputError("--wait needs --view, where 'engage' can be pressed")
-    loaded = load_scenario(scenario, settings or ())
+    loaded = load_scenario(scenario, settings or (), trust_models=trust_models)
     log = output or Path(f"{loaded.name}.mcap")
-    check_output(log, force=force)
+    check_output(log, force=force, fresh=True)
     options = LiveOptions(
         rate=rate,
         duration=_duration(duration, loaded),

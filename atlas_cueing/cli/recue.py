@@ -38,7 +38,7 @@ def recue(
     from .review import review_summary
     from .text import one_json
 
-    check_output(output, force=force)
+    check_output(output, force=force, fresh=True)
     if output.exists() and log.exists() and output.samefile(log):
         raise InputError(f"log {output}: is the log that is read; choose another name")
     recued(log, settings or (), output)

@@ -1,5 +1,7 @@
 """Do two signals have the same shape, and how late is one of them?"""
 
+from math import inf
+
 import numpy as np
 
 from .flight import Array
@@ -20,12 +22,17 @@ def correlation(reference: Array, delayed: Array, dt: float, smallest: float = 0
     parabola through three ticks; a delay at the end of the window has no peak inside it. Where shifts fit equally well, the
     smallest is taken. The delay is positive when `delayed` is late. Ticks are `dt` (s) apart.
 
-    (0, 0) when one of the signals does not vary: its standard deviation is at most `smallest`, or there is no overlap.
+    (0, 0) when one of the signals does not vary (its standard deviation is at most `smallest`), when there is no overlap, and when
+    the numbers are none.
     """
+    if not 0.0 < dt < inf:  # of a log whose times are none
+        return 0.0, 0.0
     most = min(round(WINDOW / dt), len(reference) // 4)
     if not _varies(reference, smallest) or not _varies(delayed, smallest):
         return 0.0, 0.0
     values = _pearson(_standardised(reference), _standardised(delayed), most)
+    if not np.all(np.isfinite(values)):
+        return 0.0, 0.0
     shift = _best(values) - most
     peak, offset = _peak(values, shift + most)
     return min(max(peak, -1.0), 1.0), (shift + offset) * dt

@@ -1,5 +1,6 @@
 """Ticks into an MCAP log, byte for byte the same for the same run."""
 
+import fcntl
 import os
 from collections.abc import Collection, Mapping
 from pathlib import Path
@@ -71,7 +72,10 @@ class McapRecorder:
         self._latest_log_time = started_ns or EPOCH_NS
         self._failure = ""
         try:
-            self._file = os.open(self._part, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o666)
+            self._file = os.open(self._part, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o666)
+            _hold(self._file)
+            if os.fstat(self._file).st_size:
+                os.ftruncate(self._file, 0)
             self._container = Container(self._write)
             self._start(attachments, skip_topics)
         except OSError as error:
@@ -198,6 +202,14 @@ class McapRecorder:
         if self._failure:
             self._rows.clear()
             raise OutputError(self._failure)
+
+
+def _hold(file: int) -> None:
+    """Keep others from writing the same log, until it is closed. Raises OSError while another run holds it."""
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        raise OSError(error.errno, "another run is writing it") from error
 
 
 def _check_options(chunk_ticks: int, skip_topics: Collection[str]) -> None:

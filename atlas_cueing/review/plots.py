@@ -94,7 +94,7 @@ def spectra(run: RecordedRun) -> Any:
         (2, DEGREES, flight.vehicle_w_B, flight.felt_w),
     )
     length = min(len(flight.time), 4096)
-    for column, factor, vehicle, felt in pairs if length > 8 else ():
+    for column, factor, vehicle, felt in pairs if length > 8 and 0.0 < run.step < np.inf else ():
         for name, values, colour in (("vehicle", vehicle, VEHICLE), ("rider", felt, FELT)):
             hertz, power = welch(factor * np.nan_to_num(values), 1.0 / run.step, nperseg=length, axis=0)
             trace = line(hertz[1:], power[1:].sum(axis=1), name, colour, legend=column == 1)

@@ -1,7 +1,9 @@
 """A flight known before it is used."""
 
-from ..errors import VehicleError
+from ..errors import InputError, VehicleError
 from ..signals import Vehicle, VehicleState
+
+MOST_STATES = 1_000_000  # 0.5 GB; two hours at 120 Hz
 
 
 class FlownAhead:
@@ -12,7 +14,7 @@ class FlownAhead:
     """
 
     def __init__(self, vehicle: Vehicle) -> None:
-        """Take about 0.5 kB for each state."""
+        """Take about 0.5 kB for each state. Raises InputError for a flight of more than MOST_STATES."""
         self.dt = vehicle.dt
         self.states = [vehicle.state]
         self._failure: VehicleError | None = None
@@ -20,6 +22,8 @@ class FlownAhead:
         try:
             while vehicle.advance():
                 self.states.append(vehicle.state)
+                if len(self.states) > MOST_STATES:
+                    raise InputError(f"the whole flight is kept in memory, allowed: states <= {MOST_STATES}; set duration_s")
         except VehicleError as error:
             self._failure = error
 

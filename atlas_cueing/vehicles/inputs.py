@@ -8,7 +8,7 @@ import jsbsim
 
 from ..errors import InputError
 from .flights import TimedInput
-from .library import suggestion, writable_names
+from .library import is_property_name, suggestion, writable_names
 
 _TIME_TOLERANCE = 1e-9  # s; an input at n dt belongs to step n however n dt was rounded
 
@@ -63,7 +63,7 @@ def _writable_node(name: str, fdm: jsbsim.FGFDMExec) -> jsbsim.FGPropertyNode:
 
     JSBSim itself creates a missing property in silence, so that a misspelt control does nothing.
     """
-    node = fdm.get_property_manager().get_node(name) if name else None
+    node = fdm.get_property_manager().get_node(name) if is_property_name(name) else None
     if not node:
         raise InputError(f"unknown JSBSim property {name!r}{suggestion(name, writable_names(fdm))}")
     if not node.get_attribute(jsbsim.Attribute.WRITE):

@@ -1,11 +1,15 @@
 """What JSBSim ships: scripts and aircraft by name."""
 
+import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
 
 import jsbsim
+
+_NODE = r"[A-Za-z_][\w.-]*(\[[0-9]{1,6}\])?"
+_PROPERTY = re.compile(rf"{_NODE}(/{_NODE})*", re.ASCII)
 
 
 def root() -> Path:
@@ -25,6 +29,11 @@ def own_aircraft() -> dict[str, Path]:
     folders = sorted((root() / "aircraft").iterdir())
     models = {folder.name: folder / f"{folder.name}.xml" for folder in folders}
     return {name: model for name, model in models.items() if model.is_file()}
+
+
+def is_property_name(name: str) -> bool:
+    """Whether a text can name a property; asked for one that cannot, JSBSim ends the process, and `..` it takes in silence."""
+    return _PROPERTY.fullmatch(name) is not None
 
 
 def suggestion(name: str, known: Iterable[str]) -> str:

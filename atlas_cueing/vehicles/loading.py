@@ -10,7 +10,7 @@ import jsbsim
 from ..errors import InputError
 from .flights import DEFAULT_RATE_HZ, MAX_RATE_HZ, MIN_RATE_HZ, AircraftFlight, ScriptFlight
 from .jsbsim_log import JsbsimLog, capture
-from .library import own_aircraft, root, suggestion, writable_names
+from .library import is_property_name, own_aircraft, root, suggestion, writable_names
 from .private_copy import copy_aircraft, copy_script
 
 # What JSBSim's C++ exceptions become in Python; its own jsbsim.BaseError is a RuntimeError.
@@ -104,9 +104,9 @@ def _check_names(tree: Element, script: Path, fdm: jsbsim.FGFDMExec) -> None:
     """Refuse a script that sets a property which nothing defines: JSBSim would stop there in mid-run."""
     manager = fdm.get_property_manager()
     for name in sorted({element.get("name", "").strip() for element in tree.iter("set")}):
-        if name.startswith(_OUTPUT):
+        if name.startswith(_OUTPUT) and is_property_name(name):
             manager.get_node(name, create=True)
-        elif not manager.hasNode(name):
+        elif not (is_property_name(name) and manager.hasNode(name)):
             raise InputError(f"{script}: unknown JSBSim property {name!r}{suggestion(name, writable_names(fdm))}")
 
 

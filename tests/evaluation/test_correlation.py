@@ -129,3 +129,18 @@ def test_very_short_signals(count: int) -> None:
     peak, delay = correlation(wave(T[:count]), wave(T[:count]), DT)
     assert peak == pytest.approx(1.0)
     assert delay == pytest.approx(0.0, abs=DT)
+
+
+@pytest.mark.parametrize("dt", [0.0, -0.01, np.nan, np.inf])
+def test_a_step_that_is_none(dt: float) -> None:
+    wave = np.sin(np.arange(50.0))
+    assert correlation(wave, wave, dt) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("wrong", [np.nan, np.inf, 1e200])
+def test_numbers_that_are_none(wrong: float) -> None:
+    wave = np.sin(np.arange(50.0))
+    spoilt = wave.copy()
+    spoilt[20] = wrong
+    with np.errstate(all="ignore"):
+        assert correlation(wave, spoilt, 0.01) == (0.0, 0.0)

@@ -440,3 +440,17 @@ def test_a_failed_rename_leaves_the_part(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="Is a directory"):
         recorder.close("ok", "")
     assert (tmp_path / "x.mcap.part").is_file()
+
+
+def test_two_recorders_of_one_log(tmp_path: Path) -> None:
+    """The second is refused and harms nothing; once the first has let go, its .part may be replaced."""
+    path = tmp_path / "x.mcap"
+    first = McapRecorder(path, head_S=HEAD, metadata={}, attachments={}, chunk_ticks=1)
+    first.append(tumble(1, 10.0)[0])
+    before = path.with_name("x.mcap.part").read_bytes()
+    with pytest.raises(OutputError, match="another run is writing it"):
+        McapRecorder(path, head_S=HEAD, metadata={}, attachments={})
+    assert path.with_name("x.mcap.part").read_bytes() == before
+    first.abandon()
+    McapRecorder(path, head_S=HEAD, metadata={}, attachments={}).close("ok", "")
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["x.mcap"]

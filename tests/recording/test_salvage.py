@@ -1,9 +1,12 @@
 """What is whole in a broken file; `tests/review/test_recover.py` recovers real flights."""
 
+import struct
+import zlib
 from contextlib import nullcontext, suppress
 from pathlib import Path
 
 import pytest
+import zstandard
 
 from atlas_cueing.errors import LogError
 from atlas_cueing.recording import read_log
@@ -57,3 +60,18 @@ def test_every_cut_is_survived(log: Path) -> None:
 def test_no_file(tmp_path: Path) -> None:
     with pytest.raises(LogError, match="cannot be read"):
         salvage(tmp_path / "missing.mcap", PLENTY)
+
+
+def test_a_chunk_without_messages_is_left_out(tmp_path: Path) -> None:
+    """Whole, by its checksum, and yet there is no first and last time in it."""
+    data = struct.pack("<BQ2x", 7, 2) * 3
+    packed = zstandard.compress(data)
+    body = struct.pack("<QQQII4sQ", 0, 0, len(data), zlib.crc32(data), 4, b"zstd", len(packed)) + packed
+    log = record(tmp_path / "log.mcap", tumble(20, 100.0))
+    whole = log.read_bytes()
+    place = whole.index(b"zstd") - 41
+    log.write_bytes(whole[:place] + struct.pack("<BQ", 6, len(body)) + body + whole[place:])
+    found = salvage(log, PLENTY)
+    assert len(found.chunks) == 6
+    rewrite(found, tmp_path / "again.mcap", found.metadata)
+    assert (tmp_path / "again.mcap").read_bytes() == whole

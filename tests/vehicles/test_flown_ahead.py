@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from atlas_cueing.errors import VehicleError
+from atlas_cueing.errors import InputError, VehicleError
 from atlas_cueing.signals import Vehicle, VehicleState
 from atlas_cueing.vehicles import FlownAhead, RecordedVehicle
 
@@ -49,3 +49,11 @@ def test_a_failure_comes_where_it_came_in_the_flight() -> None:
 def test_an_error_that_nobody_expects_comes_at_once() -> None:
     with pytest.raises(ZeroDivisionError):
         FlownAhead(Failing(ZeroDivisionError()))
+
+
+def test_a_flight_that_would_fill_the_memory_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("atlas_cueing.vehicles.flown_ahead.MOST_STATES", len(STATES))
+    assert FlownAhead(RecordedVehicle(STATES)).states == STATES
+    monkeypatch.setattr("atlas_cueing.vehicles.flown_ahead.MOST_STATES", len(STATES) - 1)
+    with pytest.raises(InputError, match="allowed: states <= 19; set duration_s"):
+        FlownAhead(RecordedVehicle(STATES))

@@ -112,3 +112,9 @@ def test_bad_numbers_are_refused(bad: TimedInput, fdm: jsbsim.FGFDMExec) -> None
 def test_an_empty_name_is_refused(fdm: jsbsim.FGFDMExec) -> None:
     with pytest.raises(InputError, match="unknown JSBSim property ''"):
         InputPlayer([TimedInput(0.0, "", 0.1)], fdm)
+
+
+@pytest.mark.parametrize("name", ["[[[", "%s%n", "a[", "..", "../.."])
+def test_what_can_be_no_name_does_not_end_the_process(name: str, fdm: jsbsim.FGFDMExec) -> None:
+    with pytest.raises(InputError, match="unknown JSBSim property"):
+        InputPlayer([TimedInput(0.0, name, 1.0)], fdm)

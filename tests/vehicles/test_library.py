@@ -1,6 +1,12 @@
 from pathlib import Path
 
+import pytest
+
 from atlas_cueing.vehicles import own_aircraft, own_scripts, suggestion
+from atlas_cueing.vehicles.library import is_property_name, writable_names
+from atlas_cueing.vehicles.loading import load
+
+from .flying import cessna
 
 
 def test_own_scripts_are_files_by_name() -> None:
@@ -21,3 +27,17 @@ def test_suggestion_names_the_nearest_or_nothing() -> None:
     assert suggestion("ruder_kick", own_scripts()) == "; did you mean 'rudder_kick'?"
     assert suggestion("f-16", ["f16", "mk82"]) == "; did you mean 'f16'?"
     assert suggestion("qqqqqq", own_scripts()) == ""
+
+
+def test_every_property_of_a_model_has_a_name() -> None:
+    names = writable_names(load(cessna()))
+    assert len(names) > 100
+    assert [name for name in names if not is_property_name(name)] == []
+    assert is_property_name("propulsion/engine[1]/set-running")
+
+
+@pytest.mark.parametrize(
+    "name", ["", "/", "..", "../..", "a/../b", "[[[", "a[", "a[x]", "a[-1]", "%s%n", "-a", "a/", "a//b", "\u00e9"]
+)
+def test_what_can_be_no_name(name: str) -> None:
+    assert not is_property_name(name)

@@ -89,6 +89,12 @@ def test_a_misspelt_property_in_a_script_is_refused_with_the_nearest_name(tmp_pa
         load(ScriptFlight(script))
 
 
+@pytest.mark.parametrize("name", ["../..", "..", "[[[", "simulation/output/[[[", "", "a//b", "fcs/../fcs/elevator-cmd-norm"])
+def test_a_script_sets_no_property_by_a_name_that_is_none(name: str, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"unknown JSBSim property|JSBSim cannot load it"):
+        load(ScriptFlight(write_script(tmp_path / "s.xml", event(name, "1"))))
+
+
 def test_properties_of_outputs_left_out_may_still_be_set(tmp_path: Path) -> None:
     assert "simulation/output/" in own_scripts()["c1723"].read_text()
     fdm = load(ScriptFlight(write_script(tmp_path / "s.xml", event("simulation/output/log_rate_hz", "5"))))
