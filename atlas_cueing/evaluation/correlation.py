@@ -22,8 +22,8 @@ def correlation(reference: Array, delayed: Array, dt: float, smallest: float = 0
     parabola through three ticks; a delay at the end of the window has no peak inside it. Where shifts fit equally well, the
     smallest is taken. The delay is positive when `delayed` is late. Ticks are `dt` (s) apart.
 
-    (0, 0) when one of the signals does not vary (its standard deviation is at most `smallest`), when there is no overlap, and when
-    the numbers are none.
+    (0, 0) when one of the signals does not vary (its standard deviation is at most `smallest`), when there is no overlap, and
+    when the numbers are none.
     """
     if not 0.0 < dt < inf:  # of a log whose times are none
         return 0.0, 0.0
