@@ -21,7 +21,7 @@ class Recorded:
     """What became of a recording.
 
     result, reason: as in the log's metadata; `recording_failed` with the first error when the log could not be written.
-    ticks: in the log. lost: messages that the ring overwrote before they were read.
+    ticks: in the log, at least. lost: messages that the ring overwrote before they were read.
     """
 
     result: str

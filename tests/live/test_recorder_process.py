@@ -144,7 +144,7 @@ class TestTheProcess:
         recorded = process.finish()
         assert recorded.result == "recording_failed"
         assert recorded.lost == 0
-        assert recovered(path)[0].ticks == recorded.ticks > 0
+        assert recovered(path)[0].ticks >= recorded.ticks > 0  # a chunk may be whole though its index did not fit
 
     def test_a_recorder_that_is_held_up_tells_the_gap_and_the_loop_runs_on(self, path: Path) -> None:
         """As by a slow disk, which a stopped process is like."""
