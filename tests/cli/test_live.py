@@ -89,7 +89,8 @@ def test_a_signal_parks_and_finishes_the_log(folder: Path, number: signal.Signal
         assert states[-1] == "parked"
         assert monotonic() - begun < 10.0
     else:
-        assert (process.returncode, result["result"], states[-1]) == (1, "fault", "stopped")
+        assert (result["result"], states[-1]) == ("fault", "stopped")
+        assert process.returncode in (1, -number)  # a fault may have ended the run, and nearly the process, before the signal
 
 
 def test_a_second_signal_stops_and_the_log_is_whole(folder: Path) -> None:
@@ -100,10 +101,10 @@ def test_a_second_signal_stops_and_the_log_is_whole(folder: Path) -> None:
     sleep(0.3)
     process.send_signal(signal.SIGTERM)
     out, err = process.communicate(timeout=60.0)
-    assert process.returncode == 1
     assert "Traceback" not in err
     result = json.loads(out)
     assert result["result"] in ("stopped", "fault")
+    assert process.returncode == 1 or (result["result"] == "fault" and process.returncode == -signal.SIGTERM)
     log = read_log(folder / "l.mcap")
     assert log.metadata["result"] == result["result"]
     assert log.statuses[-1].state == "stopped"
