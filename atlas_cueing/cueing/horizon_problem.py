@@ -13,6 +13,8 @@ takes in how long it will last (Kwakernaak & Sivan, Linear Optimal Control Syste
 Over a block v is a parabola and p a cubic. Both lie within the hull of their Bezier control points, so bounds on these hold
 between the nodes too. A first block within a block of the plan before has its control points within that one's hull, so that
 replacing a plan never gives up a limit.
+
+Where the optimum without limits keeps them all, it is the plan (`horizon_law`); otherwise daqp searches for it.
 """
 
 from collections.abc import Sequence
@@ -22,6 +24,8 @@ from typing import TypeAlias
 import daqp
 import numpy as np
 from numpy.typing import NDArray
+
+from .horizon_law import UnlimitedPlan
 
 Array: TypeAlias = NDArray[np.float64]
 AxisLimits: TypeAlias = tuple[float, float, float, float]  # travel m, speed m/s, acceleration m/s^2, jerk m/s^3
@@ -53,6 +57,7 @@ class HorizonProblem:
         unknowns = len(durations) - 1
         self.rows, self.offset = np.ascontiguousarray(bounded[unknowns:, 4:]), np.ascontiguousarray(bounded[:, :3])
         self.bound, self._lower, self._bounds = bound, -bound, len(bound)
+        self.unlimited = UnlimitedPlan(durations, cost, bounded, bound)
         self._from_now = np.vstack([bounded[:, :4], self.gradient])  # what both take from (p, v, a, d), in one product
         self._jerk_from_a = [1.0 / duration for duration in durations]
         kinds = np.zeros(len(bound), dtype=np.int32)
@@ -65,14 +70,21 @@ class HorizonProblem:
 
     def solve(self, p: float, v: float, a: float, demand: float) -> list[float] | None:
         """Jerk (m/s^3) of each block, from state p, v, a and the demand now (m/s^2); None when no plan was found."""
-        of_now = self._from_now @ np.array((p, v, a, demand))
+        state = (p, v, a, demand)
+        if self.unlimited.is_free(state):
+            return self.unlimited.jerks(state)
+        return self._within_limits(state)
+
+    def _within_limits(self, state: tuple[float, float, float, float]) -> list[float] | None:
+        """The plan that daqp finds, which takes some ten times as long."""
+        of_now = self._from_now @ np.array(state)
         offset, linear = of_now[: self._bounds], of_now[self._bounds :]
         if self._solver.update(f=linear, bupper=self.bound - offset, blower=self._lower - offset) < 0:
             return None
         x, _, flag, _ = self._solver.solve()
         if flag != _SOLVED:
             return None
-        ends = [a, *x.tolist(), 0.0]
+        ends = [state[2], *x.tolist(), 0.0]
         return [(end - begin) * factor for begin, end, factor in zip(ends, ends[1:], self._jerk_from_a, strict=False)]
 
 

@@ -1,0 +1,48 @@
+"""The closed form against the solver that it saves, and its word on limits against the plan itself."""
+
+import numpy as np
+import pytest
+from cueing.test_horizon_problem import DURATIONS, FADE, LIMITS, OMEGA, STATES, controls
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from atlas_cueing.cueing.horizon_problem import HorizonProblem
+
+PROBLEM = HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS)
+State = tuple[float, float, float, float]
+
+
+def numbers(most: float) -> st.SearchStrategy[float]:
+    return st.floats(-most, most)
+
+
+states = st.tuples(numbers(1.0), numbers(1.5), numbers(6.0), numbers(30.0))
+mild = st.tuples(numbers(0.1), numbers(0.1), numbers(0.3), numbers(1.0))
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.one_of(mild, states))
+def test_a_free_plan_is_the_one_that_the_solver_finds(state: State) -> None:
+    if PROBLEM.unlimited.is_free(state):
+        assert PROBLEM.unlimited.jerks(state) == pytest.approx(PROBLEM._within_limits(state), abs=1e-9)
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.one_of(mild, states))
+def test_free_is_what_keeps_every_limit_and_nothing_else(state: State) -> None:
+    """By a second derivation: control points of the simulated plan; the bound that settles most cases errs to neither side."""
+    used = float(np.max(np.abs(controls(state, np.array(PROBLEM.unlimited.jerks(state))))))
+    if abs(used - 1.0) > 1e-9:
+        assert PROBLEM.unlimited.is_free(state) == (used < 1.0)
+
+
+def test_both_answers_occur() -> None:
+    assert [PROBLEM.unlimited.is_free(state) for state in STATES] == [False, True, False, False, False, False]
+
+
+def test_the_solver_is_asked_only_where_limits_matter() -> None:
+    problem = HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS)
+    del problem._solver
+    assert problem.solve(*STATES[1]) == problem.unlimited.jerks(STATES[1])
+    with pytest.raises(AttributeError):
+        problem.solve(*STATES[2])
