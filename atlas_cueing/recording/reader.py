@@ -12,17 +12,15 @@ from numpy.typing import NDArray
 
 from ..errors import LogError
 from .log import Log, Status, Table, table_of
+from .message_starts import BOUNDARY, MESSAGE_HEAD, Starts, message_starts
 from .recorder import RUN_METADATA
-from .records import RecordReader, unpack
+from .records import MessageOffsets, RecordReader, unpack
 from .schemas import STATUS, TF, flat_fields, message_class
 from .transforms import POSE, take_transforms, transform_template
-from .wire import MESSAGE_OPCODE, RECORD_HEAD, Array, Records, Times, flat_dtype, take
+from .wire import RECORD_HEAD, Array, Records, Times, flat_dtype, take
 
 MAX_LOG = 4 * 2**30  # bytes of messages unpacked; over an hour at 1 kHz
-_MESSAGE_HEAD = 22  # bytes: channel, sequence, log time, publish time
-_HEAD = _MESSAGE_HEAD + RECORD_HEAD  # bytes before the body of a message record
-_BOUNDARY = 11  # bytes: opcode, length, channel
-_boundary = struct.Struct("<BQH").unpack_from  # opcode, length, channel
+_HEAD = MESSAGE_HEAD + RECORD_HEAD  # bytes before the body of a message record
 
 
 def read_log(path: Path, max_bytes: int = MAX_LOG) -> Log:
@@ -64,9 +62,15 @@ class _Content:
         self._statuses: list[Status] = []
         self._metadata: dict[str, dict[str, str]] = {}
         self._attachments: dict[str, bytes] = {}
+        self._chunk: Chunk | None = None  # kept until its index has come
+        self._index: Starts = {}
 
-    def add(self, record: McapRecord) -> None:
+    def add(self, record: McapRecord | MessageOffsets) -> None:
         """Take in one record of the data section; the summary repeats what is known."""
+        if isinstance(record, MessageOffsets):
+            self._keep_index(record)
+            return
+        self._finish_chunk()
         if isinstance(record, Chunk):
             self._charge(record.uncompressed_size)
         elif isinstance(record, Attachment | Schema):
@@ -77,7 +81,7 @@ class _Content:
             case Channel() if record.id not in self._channels:
                 self._add_channel(record)
             case Chunk():
-                self._add_chunk(record)
+                self._chunk = record
             case Attachment():
                 self._attachments[record.name] = record.data
             case Metadata():
@@ -87,6 +91,7 @@ class _Content:
 
     def log(self, path: Path) -> Log:
         """All of it."""
+        self._finish_chunk()
         tables: dict[str, Table] = {}
         for channel, fields in self._fields.items():
             tables[self._channels[channel].topic] = table_of(fields, self._pieces[channel])
@@ -112,16 +117,29 @@ class _Content:
         elif (fields := flat_fields(schema.name, schema.data)) is not None:
             self._fields[channel.id], self._pieces[channel.id] = fields, []
 
-    def _add_chunk(self, chunk: Chunk) -> None:
+    def _keep_index(self, offsets: MessageOffsets) -> None:
+        """Keep what the log says of the present chunk, unless it names more messages than fit in."""
+        known = sum(map(len, self._index.values()))
+        if self._chunk and (known + len(offsets.offsets)) * _HEAD <= self._chunk.uncompressed_size:
+            self._index[offsets.channel] = offsets.offsets.astype(np.int64)
+
+    def _finish_chunk(self) -> None:
+        """Read the chunk that was kept, now that whatever index it has is known."""
+        chunk, index = self._chunk, self._index
+        self._chunk, self._index = None, {}
+        if chunk is not None:
+            self._add_chunk(chunk, index)
+
+    def _add_chunk(self, chunk: Chunk, index: Starts) -> None:
         """Messages of a chunk: flat ones by numpy, changes of state one by one, others skipped."""
         data = unpack(chunk)
-        for channel, starts in _message_starts(data).items():
+        for channel, starts in message_starts(data, index).items():
             if channel in self._fields:
-                self._pieces[channel].append(self._flat(channel, data, np.array(starts)))
+                self._pieces[channel].append(self._flat(channel, data, starts))
             if channel in self._transforms:
-                self._transforms[channel].append(self._poses(data, np.array(starts)))
-            for start in starts if channel in self._status_class else ():
-                end = start + RECORD_HEAD + _boundary(data, start)[1]
+                self._transforms[channel].append(self._poses(data, starts))
+            for start in starts.tolist() if channel in self._status_class else ():
+                end = start + RECORD_HEAD + BOUNDARY.unpack_from(data, start)[1]
                 message = self._status_class[channel].FromString(data[start + _HEAD : end])
                 self._statuses.append(_status(message))
 
@@ -158,21 +176,3 @@ def _records(data: bytes, starts: NDArray[np.int64], dtype: np.dtype[np.void]) -
     windows = np.lib.stride_tricks.sliding_window_view(np.frombuffer(data, np.uint8), dtype.itemsize)
     records: Records = windows[starts].view(dtype)[:, 0]
     return records
-
-
-def _message_starts(data: bytes) -> dict[int, list[int]]:
-    """Offset of every message in a chunk, by channel."""
-    starts: dict[int, list[int]] = {}
-    position, end = 0, len(data)
-    while position < end:
-        if position + _BOUNDARY > end:
-            raise LogError("the last record of a chunk is cut")
-        opcode, length, channel = _boundary(data, position)
-        if opcode == MESSAGE_OPCODE and length < _MESSAGE_HEAD:
-            raise LogError(f"a message in a chunk has {length} bytes, allowed: at least {_MESSAGE_HEAD}")
-        if opcode == MESSAGE_OPCODE:
-            starts.setdefault(channel, []).append(position)
-        position += RECORD_HEAD + length
-    if position != end:
-        raise LogError("the last message of a chunk is cut")
-    return starts

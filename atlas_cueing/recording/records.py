@@ -10,10 +10,12 @@ from io import BytesIO
 from struct import Struct
 from typing import BinaryIO
 
+import numpy as np
 import zstandard
 from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
 from mcap.records import Attachment, Channel, Chunk, DataEnd, Footer, McapRecord, Metadata, Schema
+from numpy.typing import NDArray
 
 from ..errors import LogError
 from .container import MAGIC
@@ -21,6 +23,8 @@ from .container import MAGIC
 MAX_RECORD = 64 * 2**20  # bytes; ours are below 1 MB, an attachment may be larger
 MAX_CHUNK = 64 * 2**20  # bytes unpacked; 33 kB can unpack to 1 GiB
 _head = Struct("<BQ")
+_index_head = Struct("<HI")  # channel, bytes of the entries that follow
+_ENTRY = np.dtype([("log_time", "<u8"), ("offset", "<u8")])
 _READ = {
     Opcode.ATTACHMENT: Attachment.read,
     Opcode.CHANNEL: Channel.read,
@@ -32,6 +36,14 @@ _READ = {
 }
 
 
+@dataclass(frozen=True, slots=True)
+class MessageOffsets:
+    """What a log says about the chunk before: where the messages of a channel start in it."""
+
+    channel: int
+    offsets: NDArray[np.uint64]
+
+
 @dataclass(slots=True)
 class RecordReader:
     """Reads the records of `stream`; the data section ends with a DataEnd, the file with a Footer."""
@@ -39,8 +51,8 @@ class RecordReader:
     stream: BinaryIO
     _crc: int = field(default=0, init=False)
 
-    def records(self) -> Iterator[McapRecord]:
-        """All records but indexes and statistics. Raises LogError where the file is cut or a checksum is wrong."""
+    def records(self) -> Iterator[McapRecord | MessageOffsets]:
+        """All records but the summary's indexes and statistics. Raises LogError where the file is cut or a checksum wrong."""
         if self._take(len(MAGIC)) != MAGIC:
             raise LogError("this is no MCAP file")
         while True:
@@ -52,7 +64,9 @@ class RecordReader:
             body = self._take(length)
             if opcode == Opcode.ATTACHMENT:  # mcap does not look at it
                 _check("attachment", int.from_bytes(body[-4:], "little"), zlib.crc32(body[:-4]))
-            if opcode in _READ:
+            if opcode == Opcode.MESSAGE_INDEX:
+                yield _offsets(body)
+            elif opcode in _READ:
                 record = _READ[opcode](ReadDataStream(BytesIO(body)))
                 yield record
                 if isinstance(record, DataEnd):
@@ -70,6 +84,14 @@ class RecordReader:
             raise LogError("the file is cut")
         self._crc = zlib.crc32(data, self._crc)
         return data
+
+
+def _offsets(body: bytes) -> MessageOffsets:
+    """A MessageIndex record, whole; mcap's own class takes an entry at a time."""
+    channel, size = _index_head.unpack_from(body)
+    if size != len(body) - _index_head.size:
+        raise LogError("an index claims another size than it has")
+    return MessageOffsets(channel, np.frombuffer(body, _ENTRY, offset=_index_head.size)["offset"])
 
 
 def unpack(chunk: Chunk) -> bytes:
