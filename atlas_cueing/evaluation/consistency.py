@@ -1,13 +1,10 @@
 """Can the log be trusted? The wheels are derived from the motion again, and the orientation from the wheels alone."""
 
-from itertools import accumulate
-
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..rotation import Quat, multiply
 from .flight import Array, Flight
-from .quaternions import exp, geodesic
+from .quaternions import accumulated, exp, geodesic
 from .statistics import by_rows, largest
 
 
@@ -22,6 +19,7 @@ def consistency(flight: Flight, wheels_from_sphere: ArrayLike, sphere_from_wheel
     from_sphere = np.asarray(wheels_from_sphere, dtype=np.float64).T
 
     def mismatch(wheels: Array, sphere: Array) -> Array:
+        """Logged wheels (n, 3) less J^-1 times the sphere's rate or acceleration (n, 3)."""
         return wheels - sphere @ from_sphere
 
     drift = by_rows(geodesic, reintegrate(flight, sphere_from_wheels), flight.motion_q_WS)
@@ -44,6 +42,7 @@ def reintegrate(flight: Flight, sphere_from_wheels: ArrayLike) -> Array:
     to_sphere = np.asarray(sphere_from_wheels, dtype=np.float64).T
 
     def turns(h: Array, speed: Array, next_speed: Array, acceleration: Array, next_acceleration: Array) -> Array:
+        """Quaternions (n, 4) of the turns over steps h (n,), s, from wheel speeds and accelerations (n, 3) at both ends."""
         w, next_w = speed @ to_sphere, next_speed @ to_sphere
         slowing = (acceleration - next_acceleration) @ to_sphere
         h = h[:, None]
@@ -51,14 +50,4 @@ def reintegrate(flight: Flight, sphere_from_wheels: ArrayLike) -> Array:
 
     speed, acceleration = flight.wheel_speed, flight.wheel_acceleration
     each = by_rows(turns, np.diff(flight.time), speed[:-1], speed[1:], acceleration[:-1], acceleration[1:])
-    orientations = accumulate(map(_quat, each), _after, initial=_quat(flight.motion_q_WS[0]))
-    return np.fromiter(orientations, dtype=np.dtype((np.float64, 4)), count=len(flight.time))
-
-
-def _quat(row: Array) -> Quat:
-    w, x, y, z = row.tolist()
-    return (w, x, y, z)
-
-
-def _after(q: Quat, turn: Quat) -> Quat:
-    return multiply(turn, q)
+    return accumulated(flight.motion_q_WS[0], each)

@@ -6,6 +6,7 @@ length; tags take one byte up to field 15 and two from field 16 on. An MCAP mess
 head of 22 bytes before it (https://mcap.dev/spec#message-op0x05).
 """
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -60,6 +61,7 @@ def record_content(data: bytes, offset: int) -> tuple[int, int]:
     return offset + RECORD_HEAD + _MESSAGE_HEAD, offset + RECORD_HEAD + length
 
 
+@lru_cache
 def flat_dtype(fields: int) -> np.dtype[np.void]:
     """A message record with `fields` doubles: the record's head, then `near` and `far` fields of (tag, value)."""
     near = min(fields, _ONE_BYTE_TAGS)
@@ -94,13 +96,19 @@ def put(records: Records, values: Array) -> None:
         records["far"]["value"] = values[:, _ONE_BYTE_TAGS:]
 
 
+@lru_cache
+def _tags(fields: int) -> Records:
+    """A record with its tags in place, to be read only."""
+    return flat_template(0, fields)
+
+
 def take(records: Records, fields: int) -> Array | None:
     """Values (n, fields) of n records of `flat_dtype`; None if any tag is not where the layout has it."""
-    expected = flat_template(0, fields)
+    expected = _tags(fields)
     values = np.empty((len(records), fields))
     for part, columns in (("near", slice(0, _ONE_BYTE_TAGS)), ("far", slice(_ONE_BYTE_TAGS, None))):
         if part in (records.dtype.names or ()):
-            if not np.array_equal(records[part]["tag"], np.broadcast_to(expected[part]["tag"], records[part]["tag"].shape)):
+            if not np.all(records[part]["tag"] == expected[part]["tag"]):
                 return None
             values[:, columns] = records[part]["value"]
     return values

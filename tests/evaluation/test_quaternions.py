@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from atlas_cueing import rotation
-from atlas_cueing.evaluation.quaternions import exp, geodesic, multiply
+from atlas_cueing.evaluation.quaternions import accumulated, exp, geodesic, multiply
 
 RANDOM = np.random.default_rng(3)
 P, Q = (Rotation.random(50, rng=RANDOM) for _ in range(2))
@@ -40,3 +40,12 @@ def test_exp_is_that_of_rotation(angle: float) -> None:
 def test_small_and_large_angles_keep_their_digits(angle: float) -> None:
     q = exp(np.array([[0.0, angle, 0.0]]))
     assert geodesic(np.array([[1.0, 0.0, 0.0, 0.0]]), q)[0] == pytest.approx(angle, rel=1e-12)
+
+
+@pytest.mark.parametrize("n", [0, 1, 2, 3, 8, 9, 10, 50, 1000])
+def test_turns_accumulate_one_after_the_other(n: int) -> None:
+    turns = quats(Rotation.random(n, rng=RANDOM)) if n else np.empty((0, 4))
+    expected = [rotation.normalise((0.1, 0.2, -0.3, 0.4))]
+    for turn in turns.tolist():
+        expected.append(rotation.multiply((turn[0], turn[1], turn[2], turn[3]), expected[-1]))
+    np.testing.assert_allclose(accumulated(np.array(expected[0]), turns), expected, rtol=0, atol=1e-13)
