@@ -1,5 +1,10 @@
 """Washout-free motion cueing for platforms of unbounded rotation: JSBSim in, wheel velocity profiles out."""
 
-from importlib.metadata import version
 
-__version__ = version("atlas_cueing")
+def __getattr__(name: str) -> str:
+    """`__version__`; looked up when asked for, since importlib.metadata takes as long to load as a third of --help."""
+    if name != "__version__":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib.metadata import version
+
+    return version("atlas_cueing")

@@ -1,17 +1,16 @@
-"""Many runs into one folder, of which only what is missing is flown."""
+"""Many runs into one place, of which only what is missing is flown."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TypeAlias
 
-from .folder import locked
 from .order import Limits, Order
 from .plan import PlannedRun
 from .record import KILLED, Record, kept
+from .results import Results
 from .workers import Stop
 
-Fly: TypeAlias = Callable[[Iterable[Order], Stop], Iterator[Record]]  # `fly_here` or `fly_on_cluster`
+Fly: TypeAlias = Callable[[Iterable[Order], Stop], Iterator[Record]]  # `fly_here`, or what `on_cluster` gives
 Tell: TypeAlias = Callable[[Record], None]
 
 
@@ -23,19 +22,24 @@ class Outcome:
     record: Record | None
 
 
-def missing(runs: Sequence[PlannedRun], folder: Path, *, retry: bool = False) -> list[PlannedRun]:
-    """Runs without a final record in the folder, the longest first; with `retry` also those that had to be killed."""
-    todo = [run for run in runs if not _done(kept(run.id, folder), retry)]
-    return sorted(todo, key=lambda run: -run.ticks)  # a long one that begins last keeps everybody waiting
+def missing(runs: Sequence[PlannedRun], results: Results, *, retry: bool = False) -> list[PlannedRun]:
+    """Runs without a final record there, the longest first; with `retry` also those that had to be killed."""
+    return _todo(runs, _done(runs, results, retry))
 
 
-def _done(record: Record | None, retry: bool) -> bool:
-    return record is not None and not (retry and record.result in KILLED)
+def _done(runs: Sequence[PlannedRun], results: Results, retry: bool) -> dict[str, Record]:
+    found = kept([run.id for run in runs], results)
+    return {name: record for name, record in found.items() if not (retry and record.result in KILLED)}
+
+
+def _todo(runs: Sequence[PlannedRun], done: Mapping[str, Record]) -> list[PlannedRun]:
+    # A long one that begins last keeps everybody waiting.
+    return sorted((run for run in runs if run.id not in done), key=lambda run: -run.ticks)
 
 
 def fly_batch(
     runs: Sequence[PlannedRun],
-    folder: Path,
+    results: Results,
     fly: Fly,
     limits: Limits,
     *,
@@ -43,16 +47,14 @@ def fly_batch(
     tell: Tell = lambda _: None,
     stop: Stop = lambda: False,
 ) -> list[Outcome]:
-    """Fly what is missing in `folder`, and give what came of every run, in the order of `runs`.
+    """Fly what is missing in `results`, and give what came of every run, in the order of `runs`.
 
     A log and its record are each complete or not there, so a batch that is killed loses the runs under way and nothing else.
-    `tell` is called with each record as it comes. Raises OutputError when the folder cannot be used.
+    `tell` is called with each record as it comes. Raises OutputError when the place cannot be used.
     """
-    with locked(folder):
-        flown = {}
-        todo = missing(runs, folder, retry=retry)
-        for record in fly((Order.of(run, str(folder.resolve()), limits) for run in todo), stop):
-            flown[record.id] = record
+    with results.opened():
+        records = _done(runs, results, retry)
+        for record in fly((Order.of(run, results.place, limits) for run in _todo(runs, records)), stop):
+            records[record.id] = record
             tell(record)
-        unflown = {run.id for run in todo} - flown.keys()
-        return [Outcome(run, flown.get(run.id) or (None if run.id in unflown else kept(run.id, folder))) for run in runs]
+        return [Outcome(run, records.get(run.id)) for run in runs]

@@ -1,12 +1,14 @@
 """Runs on many machines, by dask.distributed (extra `cluster`).
 
-On machines that trust each other and share the folder of results, each with the same versions installed:
+On machines that trust each other and reach the same folder or URL, each with the same versions installed:
 
-    DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES=1 dask scheduler --host HOST --port 8786
-    dask worker tcp://HOST:8786 --nworkers 8 --nthreads 1                       # on every machine
-    atlas-cueing batch scenarios -o /shared/results --cluster tcp://HOST:8786
+    export DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES=1
+    dask scheduler --host HOST --port 8786 --dashboard-address HOST:8787
+    dask worker tcp://HOST:8786 --host HERE --dashboard-address HERE:0 --nworkers 8 --nthreads 1    # on every machine
+    atlas-cueing batch scenarios -o /shared/results --cluster tcp://HOST:8786                       # or -o s3://bucket/results
 
-Whoever reaches the scheduler can run any program on the workers: keep it on 127.0.0.1 or on a private network.
+Whoever reaches the scheduler or a worker can run any program there: HOST and HERE are 127.0.0.1 or of a private network.
+Without --dashboard-address both answer on all interfaces, also with --no-dashboard.
 """
 
 import threading
@@ -48,6 +50,7 @@ def _fly(client: Any, todo: Iterable[Order], stop: Stop) -> Iterator[Record]:
     known: dict[str, Order] = {}
 
     def submit(count: int) -> list[Any]:
+        """Hand the next orders, `count` at most, to the scheduler; gives their futures."""
         batch = list(islice(orders, count))
         known.update({order.id: order for order in batch})
         # The key makes a run that is under way for a driver that was killed be waited for instead of flown twice.
@@ -101,7 +104,7 @@ def _client(address: str, jobs: int) -> Iterator[Any]:
     if address == LOCAL:
         with (
             dask.config.set({"distributed.scheduler.allowed-failures": ATTEMPTS - 1}),
-            LocalCluster(n_workers=jobs, threads_per_worker=1, host="127.0.0.1", dashboard_address=None) as local,
+            LocalCluster(n_workers=jobs, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0") as local,
             Client(local) as client,
         ):
             yield client

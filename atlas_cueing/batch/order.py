@@ -1,4 +1,4 @@
-"""One run as a worker needs it, here or on another machine: nothing in it points to a file but the folder of results."""
+"""One run as a worker needs it, here or on another machine: nothing in it points to a file but the place of results."""
 
 import json
 from dataclasses import asdict, dataclass
@@ -21,19 +21,19 @@ class Limits:
 
 @dataclass(frozen=True, slots=True)
 class Order:
-    """A run to fly: its id, the folder of results, the files of the scenario by name, its limits, and trust in its script."""
+    """A run to fly: its id, where results go, the files of the scenario by name, its limits, and trust in its script."""
 
     id: str
-    folder: str
+    place: str
     files: dict[str, str]  # bytes as Latin-1, which loses none
     limits: Limits
     trust_models: bool = False
 
     @classmethod
-    def of(cls, run: PlannedRun, folder: str, limits: Limits) -> Self:
+    def of(cls, run: PlannedRun, place: str, limits: Limits) -> Self:
         """The order for a planned run."""
         files = {name: data.decode("latin-1") for name, data in run.scenario.attachments().items()}
-        return cls(run.id, folder, files, limits, run.scenario.trust_models)
+        return cls(run.id, place, files, limits, run.scenario.trust_models)
 
     def to_line(self) -> bytes:
         """One line of JSON."""
@@ -43,4 +43,4 @@ class Order:
     def from_line(cls, line: bytes) -> Self:
         """The order again."""
         table = json.loads(line)
-        return cls(table["id"], table["folder"], table["files"], Limits(**table["limits"]), table["trust_models"])
+        return cls(table["id"], table["place"], table["files"], Limits(**table["limits"]), table["trust_models"])

@@ -1,14 +1,13 @@
 """All runs of a batch on one page for a browser, without anything from elsewhere."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from html import escape
-from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
 from .picture import parameters, picture
-from .table import Row, replace_file
+from .table import Row
 
 _STYLE = """
 body{font:14px/1.4 system-ui,sans-serif;margin:1.5em;color-scheme:light dark}
@@ -26,11 +25,11 @@ const d=isNaN(p)||isNaN(q)?p.localeCompare(q):p-q;return up==="1"?d:-d}).forEach
 _TEXTS = ("run", "source", "scenario", "vehicle", "method", "platform", "result", "reason", "review")
 
 
-def write_overview(table: Sequence[Row], settings: Sequence[str], metrics: Sequence[str], folder: Path) -> None:
-    """Write `folder`/index.html: counts, a picture for a sweep of two parameters, and a row for each run of `table`.
+def overview(table: Sequence[Row], settings: Sequence[str], metrics: Sequence[str], title: str, files: Collection[str]) -> str:
+    """The page: counts, a picture for a sweep of two parameters, and a row for each run of `table`.
 
-    settings: the swept keys; metrics: the columns shown, the first also in the picture. Every run links to its log, its record
-    and, where there is one, its review (`<run id>.html`).
+    settings: the swept keys; metrics: the columns shown, the first also in the picture; files: what there is beside the page.
+    Every run links to its log, its record and, where there is one, its review (`<run id>.html`).
     """
     varied = parameters(table, settings)
     varied.sort(key=lambda key: len({repr(row.get(key)) for row in table}) if isinstance(table[0].get(key), str) else 0)
@@ -41,36 +40,33 @@ def write_overview(table: Sequence[Row], settings: Sequence[str], metrics: Seque
     counts = Counter(row["result"] for row in table)
     summary = ", ".join(f"{count} {result}" for result, count in counts.most_common())
     heads = "".join(f"<th{_class(name)}>{escape(name)}</th>" for name in shown)
-    body = "\n".join(_line(row, shown, folder) for row in table)
-    replace_file(
-        folder / "index.html",
-        f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(folder.resolve().name)}</title>'
-        f"<style>{_STYLE}</style><h1>{escape(folder.resolve().name)}</h1><p>{len(table)} runs: {escape(summary)}. All figures: "
+    body = "\n".join(_line(row, shown, files) for row in table)
+    return (
+        f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(title)}</title>'
+        f"<style>{_STYLE}</style><h1>{escape(title)}</h1><p>{len(table)} runs: {escape(summary)}. All figures: "
         '<a href="summary.csv">summary.csv</a>. A click on a head sorts.</p>'
-        f"{drawn}<table><thead><tr>{heads}</tr></thead><tbody>\n{body}\n</tbody></table><script>{_SCRIPT}</script></html>\n",
+        f"{drawn}<table><thead><tr>{heads}</tr></thead><tbody>\n{body}\n</tbody></table><script>{_SCRIPT}</script></html>\n"
     )
 
 
 _SAME = ("vehicle.script", "vehicle.aircraft", "cueing.method", "platform.preset")  # have a column of their own already
 
 
-def _line(row: Row, shown: Sequence[str], folder: Path) -> str:
+def _line(row: Row, shown: Sequence[str], files: Collection[str]) -> str:
     bad = "" if row["result"] == "ok" and not row.get("violations") else ' class="bad"'
-    return f"<tr{bad}>{''.join(_cell(row, name, folder) for name in shown)}</tr>"
+    return f"<tr{bad}>{''.join(_cell(row, name, files) for name in shown)}</tr>"
 
 
-def _cell(row: Row, name: str, folder: Path) -> str:
+def _cell(row: Row, name: str, files: Collection[str]) -> str:
     if name == "review":
-        return f'<td class="text" data-v="">{_links(row, folder)}</td>'
+        return f'<td class="text" data-v="">{_links(row, files)}</td>'
     value = row.get(name, "")
     return f'<td{_class(name)} data-v="{escape(str(value))}">{escape(_shown(value))}</td>'
 
 
-def _links(row: Row, folder: Path) -> str:
-    review = f"{row['run']}.html"
-    files = [("review", review if (folder / review).is_file() else ""), ("log", row.get("log", ""))]
-    files.append(("record", f"{row['run']}.json" if (folder / f"{row['run']}.json").is_file() else ""))
-    return " ".join(f'<a href="{quote(file)}">{title}</a>' for title, file in files if file)
+def _links(row: Row, files: Collection[str]) -> str:
+    named = {"review": f"{row['run']}.html", "log": row.get("log", ""), "record": f"{row['run']}.json"}
+    return " ".join(f'<a href="{quote(file)}">{title}</a>' for title, file in named.items() if file in files)
 
 
 def _class(name: str) -> str:

@@ -2,10 +2,13 @@
 
 import json
 import os
+from collections.abc import Callable, Collection
 from dataclasses import asdict, dataclass, field
 from math import isfinite
 from pathlib import Path
 from typing import Any, Self
+
+from .results import Results
 
 # The run itself ended so: the same again would end the same. Anything else (a full disk, a lost worker) is flown again.
 FINAL = ("ok", "vehicle_failed", "failed", "crashed", "timed_out", "out_of_memory")
@@ -18,7 +21,7 @@ class Record:
 
     result: ok, vehicle_failed (did not load, or went wild), failed (an error nobody expected), crashed, timed_out,
         out_of_memory; never kept: recording_failed, worker_lost, worker_differs.
-    log: file name beside the record; a `.part` when the run was killed, empty when there is none.
+    log: file name beside the record; mostly a `.part` when the run was killed, empty when there is none.
     duration, wall: of the flight and of flying it, s.
     """
 
@@ -62,18 +65,31 @@ class Record:
         return cls(**given, duration=duration, wall=wall)
 
 
-def keep(record: Record, folder: Path) -> None:
-    """Write the record beside the logs, complete or not at all."""
-    part = folder / f"{record.id}.json.part"
+def keep(record: Record, desk: Path) -> None:
+    """Write the record beside its log, complete or not at all."""
+    part = desk / f"{record.id}.json.part"
     part.write_text(json.dumps(record.to_json(), indent=1, allow_nan=False))
-    os.replace(part, folder / f"{record.id}.json")
+    os.replace(part, desk / f"{record.id}.json")
 
 
-def kept(name: str, folder: Path) -> Record | None:
-    """The record of a run that needs no flying again; None when it is missing or damaged, or its log is gone."""
+def kept(runs: Collection[str], results: Results) -> dict[str, Record]:
+    """Records by id of those runs that need no flying again: whose record is there and sound, and whose log is there."""
+    there = results.names()
+    read = results.read(name for name in (f"{run}.json" for run in runs) if name in there)
+    records = {run: _sound(run, read[f"{run}.json"], there.__contains__) for run in runs if f"{run}.json" in read}
+    return {run: record for run, record in records.items() if record}
+
+
+def done_by_another(run: str, results: Results) -> Record | None:
+    """The record of a run as `kept` finds it, without those that had to be killed: whoever orders them wants them again."""
+    content = results.read([f"{run}.json"]).get(f"{run}.json", b"")
+    record = _sound(run, content, results.has)
+    return record if record and record.result not in KILLED else None
+
+
+def _sound(run: str, content: bytes, has: Callable[[str], bool]) -> Record | None:
     try:
-        record = Record.from_json(json.loads((folder / f"{name}.json").read_bytes()))
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        record = Record.from_json(json.loads(content))
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return None
-    whole = record.id == name and record.final and (not record.log or (folder / record.log).is_file())
-    return record if whole else None
+    return record if record.id == run and record.final and (not record.log or has(record.log)) else None

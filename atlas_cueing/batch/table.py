@@ -1,11 +1,9 @@
 """Every run of a batch in a row: what it was, what came of it, and every figure."""
 
 import csv
-import os
 from collections.abc import Mapping, Sequence
 from io import StringIO
 from math import inf, isnan
-from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -79,17 +77,10 @@ def columns(table: Sequence[Row]) -> list[str]:
     return list(dict.fromkeys(name for row in table for name in row))
 
 
-def write_csv(table: Sequence[Row], path: Path) -> None:
-    """The table as CSV, numbers in full; a list is written as Python would. The file is replaced as a whole."""
+def csv_of(table: Sequence[Row]) -> str:
+    """The table as CSV, numbers in full; a list is written as Python would."""
     text = StringIO(newline="")
     writer = csv.DictWriter(text, columns(table), restval="", lineterminator="\n")
     writer.writeheader()
     writer.writerows(table)
-    replace_file(path, text.getvalue())
-
-
-def replace_file(path: Path, text: str) -> None:
-    """Write a text file, complete or not at all."""
-    part = path.with_name(f"{path.name}.part")
-    part.write_text(text, encoding="utf-8")
-    os.replace(part, path)
+    return text.getvalue()

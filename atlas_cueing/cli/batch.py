@@ -5,6 +5,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -14,7 +15,7 @@ from .batch_progress import batch_progress, spoken
 from .text import TRUST_MODELS
 
 if TYPE_CHECKING:
-    from ..batch import Fly, Outcome, PlannedRun
+    from ..batch import Fly, Outcome, PlannedRun, Results
 
 EPILOG = """
 Examples:
@@ -23,9 +24,27 @@ Examples:
 
   atlas-cueing batch scenarios/jsbsim_collection.toml -o collection --jobs 2 --sort force_rms_m_s2
 
+The same command again flies only what is missing. On many machines, or to try it here, with pip install
+'atlas_cueing[cluster]': a scheduler, workers on every machine, then the batch, to a folder that all of them see:
+
+  export DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES=1
+
+  dask scheduler --host 127.0.0.1 --port 8786 --dashboard-address 127.0.0.1:8787
+
+  dask worker tcp://127.0.0.1:8786 --host 127.0.0.1 --dashboard-address 127.0.0.1:0 --nworkers 8 --nthreads 1
+
   atlas-cueing batch sweep.toml -o /shared/sweep --cluster tcp://127.0.0.1:8786
 
-The same command again flies only what is missing. A file with a [sweep] table stands for many runs:
+Or to a URL that fsspec has a driver for, which every worker uploads its finished runs to. No lock keeps a second batch out:
+
+  atlas-cueing batch sweep.toml -o file:///shared/sweep
+
+  atlas-cueing batch sweep.toml -o s3://bucket/sweep --cluster tcp://127.0.0.1:8786    (pip install s3fs)
+
+Whoever reaches a scheduler or worker can run any program there: use addresses of a private network only, in place of each
+127.0.0.1 above; without --dashboard-address both answer the whole world over HTTP.
+
+A file with a [sweep] table stands for many runs:
 
   [sweep]
 
@@ -44,7 +63,10 @@ _SHOWN_FINDINGS = 20  # lines on stderr; the table has all
 
 def batch(
     paths: Annotated[list[Path], typer.Argument(help="Scenario files, sweeps, and folders of them.", metavar="PATH...")],
-    output: Annotated[Path, typer.Option("-o", "--output", metavar="FOLDER", help="Folder of logs, records and table.")],
+    output: Annotated[
+        str,
+        typer.Option("-o", "--output", metavar="FOLDER|URL", help="Where logs, records and table go; URL: file://, s3://..."),
+    ],
     jobs: Annotated[int | None, typer.Option(min=1, max=1024, help="Runs at a time; by default one for each core.")] = None,
     cluster: Annotated[
         str | None, typer.Option(metavar="tcp://HOST:PORT", help="Fly on a dask cluster; 'local' starts one here.")
@@ -66,27 +88,28 @@ def batch(
 ) -> None:
     """Fly many scenarios, each alone in its process, and put all figures into one table.
 
-    FOLDER gets RUN.mcap and RUN.json for each run, summary.csv and index.html. Exit status 0: all flown, every limit kept. 1: a
-    run has a finding, or the batch was stopped. 2: bad input, nothing was written.
+    The folder gets RUN.mcap and RUN.json for each run, summary.csv and index.html. Exit status 0: all flown, every limit kept.
+    1: a run has a finding, or the batch was stopped. 2: bad input, nothing was written.
     """
-    from ..batch import Interrupt, Limits, check_folder, fly_batch, missing, plan
+    from ..batch import Interrupt, Limits, fly_batch, missing, plan, results_at
 
     _check_metric(sort)
     if pages:
         _check_plotly()
     runs = plan(paths, settings or (), trust_models=trust_models)
-    check_folder(output)
-    todo = missing(runs, output, retry=retry)
+    results = results_at(output)
+    results.check()
+    todo = missing(runs, results, retry=retry)
     typer.echo(_plan_text(runs, todo), err=True)
     if dry_run:
         return
     with _flyer(cluster, jobs or len(os.sched_getaffinity(0))) as fly, Interrupt() as stop, batch_progress(todo) as tell:
         limits = Limits(time_limit, memory_limit)
-        outcomes = fly_batch(runs, output, fly, limits, retry=retry, tell=tell, stop=lambda: stop.requested)
+        outcomes = fly_batch(runs, results, fly, limits, retry=retry, tell=tell, stop=lambda: stop.requested)
     if pages and not stop.requested:
-        _write_pages(outcomes, output)
-    table = _write(outcomes, output, sort)
-    typer.echo(_json(table, output) if as_json else _text(table, _settings(outcomes), sort, top, output))
+        _write_pages(outcomes, results)
+    table = _write(outcomes, results, sort)
+    typer.echo(_json(table, results) if as_json else _text(table, _settings(outcomes), sort, top, results))
     _end(outcomes, stopped=stop.requested)
 
 
@@ -108,28 +131,35 @@ def _plan_text(runs: "Sequence[PlannedRun]", todo: "Sequence[PlannedRun]") -> st
     return f"{len(runs)} runs, {len(runs) - len(todo)} of them done already; to fly: {spoken(known)} of flight at most{more}"
 
 
-def _write(outcomes: "Sequence[Outcome]", folder: Path, sort: str) -> list[Mapping[str, Any]]:
+def _write(outcomes: "Sequence[Outcome]", results: "Results", sort: str) -> list[Mapping[str, Any]]:
     """Table and overview, also of a batch that was stopped; gives the table."""
-    from ..batch import ordered, rows, write_csv, write_overview
+    from ..batch import csv_of, ordered, overview, rows
 
     table = ordered(rows(outcomes), sort)
-    write_csv(table, folder / "summary.csv")
-    write_overview(table, _settings(outcomes), [sort, *(name for name in SHOWN_METRICS if name != sort)], folder)
+    results.write("summary.csv", csv_of(table).encode())
+    metrics = [sort, *(name for name in SHOWN_METRICS if name != sort)]
+    page = overview(table, _settings(outcomes), metrics, results.title, results.names())
+    results.write("index.html", page.encode())
     return table
 
 
-def _write_pages(outcomes: "Sequence[Outcome]", folder: Path) -> None:
+def _write_pages(outcomes: "Sequence[Outcome]", results: "Results") -> None:
     """The review of each complete log that has none yet, beside it."""
     from ..review import review
     from ..review.page import write_page
 
+    there = results.names()
     for record in (outcome.record for outcome in outcomes if outcome.record):
-        page = folder / f"{record.id}.html"
-        if record.log.endswith(".mcap") and not page.exists():
+        if not record.log.endswith(".mcap") or f"{record.id}.html" in there:
+            continue
+        with TemporaryDirectory(prefix="atlas_cueing_") as scratch:
+            page = Path(scratch) / "page.html"
             try:
-                write_page(review(folder / record.log), page)
+                write_page(review(results.fetch(record.log, Path(scratch))), page)
             except LogError as error:
                 typer.echo(f"{record.id}: no review: {error}", err=True)
+            else:
+                results.write(f"{record.id}.html", page.read_bytes())
 
 
 def _check_plotly() -> None:
@@ -151,14 +181,14 @@ def _settings(outcomes: "Sequence[Outcome]") -> list[str]:
     return list(dict.fromkeys(key for outcome in outcomes for key in outcome.run.settings))
 
 
-def _json(table: Sequence[Mapping[str, Any]], folder: Path) -> str:
+def _json(table: Sequence[Mapping[str, Any]], results: "Results") -> str:
     from .text import one_json
 
     counts = Counter(row["result"] for row in table)
-    return one_json({"folder": str(folder), "runs": len(table), "results": dict(counts), "table": table})
+    return one_json({"folder": results.where(), "runs": len(table), "results": dict(counts), "table": table})
 
 
-def _text(table: Sequence[Mapping[str, Any]], settings: Sequence[str], sort: str, top: int, folder: Path) -> str:
+def _text(table: Sequence[Mapping[str, Any]], settings: Sequence[str], sort: str, top: int, results: "Results") -> str:
     """The first rows, counts, and where everything is."""
     from ..review.figures import Figure
     from .text import aligned
@@ -179,8 +209,8 @@ def _text(table: Sequence[Mapping[str, Any]], settings: Sequence[str], sort: str
         ("runs", ", ".join(f"{count} {result}" for result, count in counts.most_common())),
         ("violations", str(sum(row.get("violations", 0) for row in table))),
         ("flight", spoken(flown)),
-        ("table", str(folder / "summary.csv")),
-        ("overview", str(folder / "index.html")),
+        ("table", results.where("summary.csv")),
+        ("overview", results.where("index.html")),
     ]
     return "\n".join([*(lines if top else []), *aligned(tail, "")])
 

@@ -23,7 +23,7 @@ class Count:
         self._flown = 0.0
         self._ticks = {run.id: run.duration / run.step if run.duration else 0.0 for run in runs}
         self._left = sum(self._ticks.values())
-        self._all = self._left
+        self._worked = 0  # ticks that were flown: many a run ends, or fails, long before its planned end
         self._begun = perf_counter()
 
     def add(self, record: "Record") -> None:
@@ -31,6 +31,7 @@ class Count:
         self.done += 1
         self.failed += not record.clean
         self._flown += record.duration
+        self._worked += record.ticks
         self._left -= self._ticks.get(record.id, 0.0)
 
     @property
@@ -44,10 +45,9 @@ class Count:
         return f"{self.done} of {self.total} runs done, {self.failed} failed, {speed:.0f} flight s a second{self._rest()}"
 
     def _rest(self) -> str:
-        done = self._all - self._left
-        if done <= 0.0 or self.done == self.total:
+        if self._worked == 0 or self.done == self.total:
             return ""
-        return f", {spoken(self.wall * self._left / done)} left"
+        return f", {spoken(self.wall * self._left / self._worked)} left at most"
 
 
 def spoken(time: float) -> str:
@@ -65,6 +65,7 @@ def batch_progress(runs: "Sequence[PlannedRun]") -> "Iterator[Callable[[Record],
     with show(count) as update:
 
         def tell(record: "Record") -> None:
+            """Count one more run, and show it."""
             count.add(record)
             update()
 
@@ -76,6 +77,7 @@ def _lines(count: Count) -> Iterator[Callable[[], None]]:
     last = 0.0
 
     def update() -> None:
+        """A line when it is time for one, and at the end."""
         nonlocal last
         if count.wall - last >= _LINE_EVERY or count.done == count.total:
             last = count.wall

@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from .options import AsJson
+
 if TYPE_CHECKING:
     from ..review import Comparison
 
@@ -20,14 +22,14 @@ _LONGEST_NAME = 16  # characters of a column's head
 
 
 def compare(
-    logs: Annotated[list[Path], typer.Argument(help="Two or more logs (MCAP) of one flight.", metavar="LOG LOG...")],
+    logs: Annotated[list[Path], typer.Argument(help="Two or more logs (MCAP) of one flight.", metavar="LOG")],
     html: Annotated[
         Path | None, typer.Option("--html", metavar="FILE", help="Write overlaid plots into one file for a browser.")
     ] = None,
     different_flights: Annotated[
         bool, typer.Option("--different-flights", help="Compare although the vehicle did not fly the same in all.")
     ] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
+    as_json: AsJson = False,
     force: Annotated[bool, typer.Option("--force", help="Replace an existing HTML file.")] = False,
 ) -> None:
     """Put several logs of one flight side by side.

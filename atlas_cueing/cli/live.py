@@ -2,12 +2,12 @@
 
 from math import inf
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
 
 from ..errors import InputError
-from .text import TRUST_MODELS
+from .options import AsJson, Force, NewLog, ScenarioFile, Settings, TrustModels
 
 if TYPE_CHECKING:
     from ..scenario import Scenario
@@ -26,39 +26,48 @@ emergency stop and the monitoring of speed and position belong to hardware.
 """
 
 
+Rate: TypeAlias = Annotated[float, typer.Option("--rate", help="Ticks a second, 100 to 1000.", metavar="HZ")]
+Duration: TypeAlias = Annotated[
+    float | None,
+    typer.Option("--duration", help="Park after so many seconds; by default when the flight is over.", metavar="S", min=0.0),
+]
+View: TypeAlias = Annotated[bool, typer.Option("--view", help="Serve a 3D view with buttons on the loopback (extra: live).")]
+Port: TypeAlias = Annotated[
+    int, typer.Option("--port", help="Port of the view; 0 for any free one.", metavar="PORT", min=0, max=65535)
+]
+Wait: TypeAlias = Annotated[bool, typer.Option("--wait", help="Stay parked until 'engage' is pressed in the view.")]
+SetPoints: TypeAlias = Annotated[
+    str | None, typer.Option("--setpoints", help="Send set points to a drive controller by UDP.", metavar="HOST:PORT")
+]
+KeyFile: TypeAlias = Annotated[
+    Path | None,
+    typer.Option("--key", help="File with a shared key for set points; needed beyond the loopback.", metavar="FILE"),
+]
+Foxglove: TypeAlias = Annotated[
+    int | None,
+    typer.Option("--foxglove", help="Serve Foxglove at this port of the loopback (extra: foxglove).", metavar="PORT"),
+]
+Priority: TypeAlias = Annotated[
+    bool, typer.Option("--priority", help="Ask for real-time priority, locked memory and a core; tell what is refused.")
+]
+
+
 def live(
-    scenario: Annotated[Path, typer.Argument(help="Scenario file (TOML).", metavar="SCENARIO")],
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="Log to write; by default ./NAME.mcap with the scenario's name.")
-    ] = None,
-    rate: Annotated[float, typer.Option("--rate", help="Ticks a second, 100 to 1000.", metavar="HZ")] = 500.0,
-    duration: Annotated[
-        float | None,
-        typer.Option("--duration", help="Park after so many seconds; by default when the flight is over.", min=0.0),
-    ] = None,
-    view: Annotated[bool, typer.Option("--view", help="Serve a 3D view with buttons on the loopback (extra: live).")] = False,
-    port: Annotated[int, typer.Option("--port", help="Port of the view; 0 for any free one.", min=0, max=65535)] = 8080,
-    wait: Annotated[bool, typer.Option("--wait", help="Stay parked until 'engage' is pressed in the view.")] = False,
-    setpoints: Annotated[
-        str | None, typer.Option("--setpoints", help="Send set points to a drive controller by UDP.", metavar="HOST:PORT")
-    ] = None,
-    key: Annotated[
-        Path | None, typer.Option("--key", help="File with a shared key for set points; needed beyond the loopback.")
-    ] = None,
-    foxglove: Annotated[
-        int | None,
-        typer.Option("--foxglove", help="Serve Foxglove at this port of the loopback (extra: foxglove).", metavar="PORT"),
-    ] = None,
-    priority: Annotated[
-        bool, typer.Option("--priority", help="Ask for real-time priority, locked memory and a core; tell what is refused.")
-    ] = False,
-    settings: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="KEY=VALUE", help="Set any key of the scenario or its platform; repeatable."),
-    ] = None,
-    trust_models: Annotated[bool, typer.Option("--trust-models", help=TRUST_MODELS)] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
-    force: Annotated[bool, typer.Option("--force", help="Replace an existing log.")] = False,
+    scenario: ScenarioFile,
+    output: NewLog = None,
+    rate: Rate = 500.0,
+    duration: Duration = None,
+    view: View = False,
+    port: Port = 8080,
+    wait: Wait = False,
+    setpoints: SetPoints = None,
+    key: KeyFile = None,
+    foxglove: Foxglove = None,
+    priority: Priority = False,
+    settings: Settings = None,
+    trust_models: TrustModels = False,
+    as_json: AsJson = False,
+    force: Force = False,
 ) -> None:
     """Fly a scenario in real time: set points to the drives, a log, a view.
 
@@ -73,7 +82,7 @@ def live(
     from ..live.session import LiveOptions, LiveSession
     from ..scenario import load_scenario
     from .live_extras import drives, followers
-    from .summary import live_summary
+    from .summary import end, live_summary
     from .text import one_json
 
     if wait and not view:
@@ -81,23 +90,14 @@ def live(
     loaded = load_scenario(scenario, settings or (), trust_models=trust_models)
     log = output or Path(f"{loaded.name}.mcap")
     check_output(log, force=force, fresh=True)
-    options = LiveOptions(
-        rate=rate,
-        duration=_duration(duration, loaded),
-        attended=view,
-        engage=not wait,
-        priority=priority,
-        announce=not as_json,
-    )
+    until = _duration(duration, loaded)
+    options = LiveOptions(rate, until, attended=view, engage=not wait, priority=priority, announce=not as_json)
     session = LiveSession(loaded, log, options)
     with ending() as signals:
         with followers(session, loaded, port if view else None, foxglove), drives(setpoints, key) as sender:
             result = session.run(sender, signals.asked)
         typer.echo(one_json(result.to_json()) if as_json else live_summary(result))
-    if not result.clean:
-        for finding in ([f"{result.result}: {result.reason}"] if result.reason else []) + list(result.evaluation.violations):
-            typer.echo(finding, err=True)
-        raise typer.Exit(1)
+    end(result)
 
 
 def _duration(asked: float | None, loaded: "Scenario") -> float:

@@ -26,6 +26,7 @@ def shown_progress(name: str, duration: float | None) -> Iterator[Callable[[floa
         task = bar.add_task(name, total=duration, flown="", visible=False)
 
         def progress(time: float) -> None:
+            """Move the bar to the flight time, s."""
             wall = perf_counter() - begun
             flown = f"{time:.0f} s flown, {time / wall:.1f} times real time"
             bar.update(task, completed=time, flown=flown, visible=wall > _SHORT)

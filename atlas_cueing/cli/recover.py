@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from .options import AsJson, Force
+
 EPILOG = """
 Examples:
 
@@ -17,8 +19,8 @@ Examples:
 def recover(
     broken: Annotated[Path, typer.Argument(help="A cut or damaged log, or the .part of a killed run.", metavar="BROKEN")],
     output: Annotated[Path, typer.Option("-o", "--output", metavar="FIXED", help="Log to write.")],
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
-    force: Annotated[bool, typer.Option("--force", help="Replace an existing log.")] = False,
+    as_json: AsJson = False,
+    force: Force = False,
 ) -> None:
     """Save what is whole in a broken log.
 

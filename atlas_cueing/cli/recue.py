@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from .options import Force
+
 EPILOG = """
 Examples:
 
@@ -22,7 +24,7 @@ def recue(
         typer.Option("--set", metavar="KEY=VALUE", help="Set any key of cueing, platform or recording; repeatable."),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the review of the new log as one JSON object.")] = False,
-    force: Annotated[bool, typer.Option("--force", help="Replace an existing log.")] = False,
+    force: Force = False,
 ) -> None:
     """Cue a recorded flight in another way.
 

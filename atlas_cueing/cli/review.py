@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import LogError
+from .options import AsJson
 
 if TYPE_CHECKING:
     from ..review import Review
@@ -35,7 +36,7 @@ def review(
     ] = None,
     view: Annotated[bool, typer.Option("--view", help="Show the flight in a browser until Ctrl-C, with a play bar.")] = False,
     port: Annotated[int, typer.Option("--port", min=0, max=65535, help="Port of --view on this machine; 0: any.")] = 8080,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
+    as_json: AsJson = False,
     force: Annotated[bool, typer.Option("--force", help="Replace existing HTML files.")] = False,
 ) -> None:
     """Judge a log by its own numbers.

@@ -1,11 +1,10 @@
 """`atlas-cueing run`: one scenario into one log."""
 
 from pathlib import Path
-from typing import Annotated
 
 import typer
 
-from .text import TRUST_MODELS
+from .options import AsJson, Force, NewLog, ScenarioFile, Settings, TrustModels
 
 EPILOG = """
 Examples:
@@ -19,17 +18,12 @@ Examples:
 
 
 def run(
-    scenario: Annotated[Path, typer.Argument(help="Scenario file (TOML).", metavar="SCENARIO")],
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="Log to write; by default ./NAME.mcap with the scenario's name.")
-    ] = None,
-    settings: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="KEY=VALUE", help="Set any key of the scenario or its platform; repeatable."),
-    ] = None,
-    trust_models: Annotated[bool, typer.Option("--trust-models", help=TRUST_MODELS)] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
-    force: Annotated[bool, typer.Option("--force", help="Replace an existing log.")] = False,
+    scenario: ScenarioFile,
+    output: NewLog = None,
+    settings: Settings = None,
+    trust_models: TrustModels = False,
+    as_json: AsJson = False,
+    force: Force = False,
 ) -> None:
     """Fly a scenario and write its log.
 
@@ -40,7 +34,7 @@ def run(
     from ..batch import check_output, run_scenario
     from ..scenario import load_scenario
     from .progress import shown_progress
-    from .summary import run_summary
+    from .summary import end, run_summary
     from .text import one_json
 
     loaded = load_scenario(scenario, settings or (), trust_models=trust_models)
@@ -49,7 +43,4 @@ def run(
     with shown_progress(loaded.name, loaded.file.duration_s) as progress:
         result = run_scenario(loaded, log, progress=progress)
     typer.echo(one_json(result.to_json()) if as_json else run_summary(result))
-    if not result.clean:
-        for finding in ([f"{result.result}: {result.reason}"] if result.reason else []) + list(result.evaluation.violations):
-            typer.echo(finding, err=True)
-        raise typer.Exit(1)
+    end(result)

@@ -2,14 +2,18 @@
 
 from collections.abc import Mapping
 from math import degrees
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ..batch import RunResult
-from ..live.session import LiveResult
-from ..rotation import Mat3, Vec3
-from ..scenario import Platform
+import typer
+
 from ..wheels import headroom
 from .text import aligned
+
+if TYPE_CHECKING:  # what is shown has been loaded by whoever made it
+    from ..batch import RunResult
+    from ..live.session import LiveResult
+    from ..rotation import Mat3, Vec3
+    from ..scenario import Platform
 
 # Rows of the table: title, metric, unit of the metric, unit shown, factor.
 _FELT = (
@@ -23,40 +27,37 @@ _STATISTICS = ("rms", "p95", "max")
 _LIMITS = ("wheel_speed", "wheel_acceleration", "wheel_jerk", "stage_travel", "stage_speed", "stage_acceleration", "stage_jerk")
 
 
-def run_summary(result: RunResult) -> str:
+def run_summary(result: "RunResult") -> str:
     """Result, what was felt, and the use of the limits, for people; `--json` has every figure."""
-    metrics = result.evaluation.metrics
-    return "\n".join(
-        [
-            *aligned(_head(result), ""),
-            *_felt_table(metrics),
-            *aligned(_motion_rows(metrics), ""),
-            *aligned(_limit_rows(result.evaluation.limit_use), ""),
-        ]
-    )
+    return "\n".join([*aligned(_head(result), ""), *_evaluation(result)])
 
 
-def live_summary(result: LiveResult) -> str:
+def end(result: "RunResult | LiveResult") -> None:
+    """Say on stderr what was found. Raises Exit(1) if anything was."""
+    if not result.clean:
+        for finding in ([f"{result.result}: {result.reason}"] if result.reason else []) + list(result.evaluation.violations):
+            typer.echo(finding, err=True)
+        raise typer.Exit(1)
+
+
+def live_summary(result: "LiveResult") -> str:
     """As `run_summary`, with how punctual the loop was."""
-    metrics = result.evaluation.metrics
     head = [
         ("result", f"{result.result}  {result.reason}".rstrip()),
         ("log", str(result.log)),
         ("flown", f"{result.duration:.2f} s, {result.ticks} ticks, {result.faults} faults, {result.dropped} samples dropped"),
         ("violations", str(len(result.evaluation.violations))),
     ]
-    return "\n".join(
-        [
-            *aligned(head, ""),
-            *aligned(_timing_rows(result), ""),
-            *_felt_table(metrics),
-            *aligned(_motion_rows(metrics), ""),
-            *aligned(_limit_rows(result.evaluation.limit_use), ""),
-        ]
-    )
+    return "\n".join([*aligned(head, ""), *aligned(_timing_rows(result), ""), *_evaluation(result)])
 
 
-def _timing_rows(result: LiveResult) -> list[tuple[str, str]]:
+def _evaluation(result: "RunResult | LiveResult") -> list[str]:
+    """What was felt, what moved, and the use of the limits."""
+    metrics, use = result.evaluation.metrics, result.evaluation.limit_use
+    return [*_felt_table(metrics), *aligned(_motion_rows(metrics), ""), *aligned(_limit_rows(use), "")]
+
+
+def _timing_rows(result: "LiveResult") -> list[tuple[str, str]]:
     timing, realtime = result.timing, result.punctual
     rows = [
         (title, ", ".join(f"{label} {timing[f'{name}_{key}_us']:.0f}" for key, label in _PERCENTILES) + " us")
@@ -70,7 +71,7 @@ def _timing_rows(result: LiveResult) -> list[tuple[str, str]]:
     return rows
 
 
-def _head(result: RunResult) -> list[tuple[str, str]]:
+def _head(result: "RunResult") -> list[tuple[str, str]]:
     speed = result.duration / result.wall if result.wall > 0.0 else 0.0
     return [
         ("result", f"{result.result}  {result.reason}".rstrip()),
@@ -111,7 +112,7 @@ def _limit_rows(use: Mapping[str, float]) -> list[tuple[str, str]]:
     return [(f"{limit.replace('_', ' ')}", f"{100.0 * u:.4f} % of its limit") for limit, u in most.items() if u is not None]
 
 
-def kinematics(platform: Platform) -> dict[str, Any]:
+def kinematics(platform: "Platform") -> dict[str, Any]:
     """Kinematics of a platform by name, unit in the name; `sphere_from_wheels` is None for a singular geometry."""
     geometry = platform.geometry()
     room = headroom(geometry, platform.wheel_speed_limits())
@@ -151,11 +152,11 @@ def _is_matrix(name: str) -> bool:
     return name in ("induced_rows", "wheels_from_sphere", "sphere_from_wheels")
 
 
-def _rows(matrix: Mat3) -> list[str]:
+def _rows(matrix: "Mat3") -> list[str]:
     return [_row(row) for row in matrix]
 
 
-def _row(row: Vec3) -> str:
+def _row(row: "Vec3") -> str:
     # Adding zero takes the sign off a negative zero.
     return "  " + " ".join(f"{x + 0.0:12.6f}" for x in row)
 

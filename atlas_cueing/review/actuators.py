@@ -33,12 +33,13 @@ def check_actuators(run: RecordedRun) -> list[Finding]:
 
 
 def limit_shares(run: RecordedRun) -> dict[str, Array]:
-    """Use of each limit (n, 3) by logged values, as a share of it: `wheel_speed`, `stage_travel` and so on."""
+    """Use of each limit as a share of it: `wheel_speed` and so on (n, 3); jerk by differences of acceleration (n - 1, 3)."""
     shares: dict[str, Array] = {}
     for name, chain in (("wheel", _wheels(run)), ("stage", _stage(run))):
         for quantity, values, limit in zip(("travel", "speed", "acceleration"), chain.values, chain.limits, strict=False):
             if values is not None and limit is not None:
                 shares[f"{name}_{quantity}"] = values / np.asarray(limit)
+        shares[f"{name}_jerk"] = _slope(chain.values[2], run.flight.time) / np.asarray(chain.limits[3])
     return shares
 
 

@@ -18,7 +18,8 @@ def check_clock(run: RecordedRun) -> list[Finding]:
     time, step = run.flight.time, run.step
     found = []
     for topic in TOPICS:
-        found += exceeding("time differs from /motion", [f"{topic} time_s"], time, times[topic] - time, 0.0, "s")
+        place, off = [f"{topic} time_s"], times[topic] - time
+        found += exceeding("time differs from /motion", place, time, off, 0.0, "s", quantity="difference")
     steps = np.diff(time)
     if len(steps):
         back, gap = steps <= 0.0, steps > GAP * step

@@ -33,13 +33,19 @@ def check_course(run: RecordedRun) -> list[Finding]:
 
 
 def notes(run: RecordedRun) -> list[str]:
-    """What a reader should know that is no fault: each spell of another state, and how much was limited."""
+    """What a reader should know that is no fault: each spell of another state."""
     told = []
-    for status, after in zip(run.log.statuses, [*run.log.statuses[1:], None], strict=False):
-        if status.state not in CALM and not _is_broken(status):
-            until = f" to {after.time:.6f} s" if after else ""
-            told.append(f"{status.time:.6f}{until or ' s'} {status.state}: {status.reason}".rstrip(": "))
+    for begin, end, status in spells(run):
+        if not _is_broken(status):
+            until = "" if end is None else f" to {end:.6f}"
+            told.append(f"{begin:.6f}{until} s {status.state}: {status.reason}".rstrip(": "))
     return told
+
+
+def spells(run: RecordedRun) -> list[tuple[float, float | None, Status]]:
+    """Each spell of a state that is not calm: when it began and ended, s (None: never), and what was said of it."""
+    ends = [*(status.time for status in run.log.statuses[1:]), None]
+    return [(status.time, end, status) for status, end in zip(run.log.statuses, ends, strict=False) if status.state not in CALM]
 
 
 def _is_broken(status: Status) -> bool:

@@ -1,5 +1,6 @@
 """Metrics for people: their names in words, angles in degrees, shares in percent."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from math import degrees
 
@@ -43,10 +44,15 @@ class Figure:
 
 
 def headlines(metrics: dict[str, float]) -> list[tuple[str, str]]:
-    """Title and value of what tells most: errors of force, direction, rate and attitude, turns, and what was limited."""
-    telling = [name for name in metrics if name.split("_rms_")[0] in _TELLING and "_rms_" in name]
-    telling += [name for name in metrics if name.startswith("turns_") or name.endswith("limited_share")]
-    return [(figure.title, figure.text(metrics[name])) for name in telling for figure in [Figure.of(name)]]
+    """Title and value of what tells most."""
+    return [(figure.title, figure.text(metrics[name])) for name in telling(metrics) for figure in [Figure.of(name)]]
+
+
+def telling(names: Iterable[str]) -> list[str]:
+    """The metrics that tell most, each once: errors of force, direction, rate and attitude, turns, and what was limited."""
+    known = list(dict.fromkeys(names))
+    errors = [name for name in known if name.split("_rms_")[0] in _TELLING and "_rms_" in name]
+    return errors + [name for name in known if name.startswith("turns_") or name.endswith("limited_share")]
 
 
 _TELLING = ("force", "direction", "rate", "attitude", "perceived_force", "perceived_rate")

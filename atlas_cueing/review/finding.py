@@ -44,7 +44,8 @@ def exceeding(
     for k in np.flatnonzero((size > bounds).any(axis=0)).tolist():
         beyond = size[:, k] > bounds[:, k]
         worst = int(np.argmax(np.where(beyond, size[:, k] / np.maximum(bounds[:, k], 1e-300), -1.0)))
-        text = f"{quantity} = {size[worst, k]:.9g} {unit}, allowed: {quantity} <= {bounds[worst, k]:.9g} {unit}"
+        value, bound = (f"{number[worst, k]:.9g} {unit}".rstrip() for number in (size, bounds))
+        text = f"{quantity} = {value}, allowed: {quantity} <= {bound}"
         found.append(Finding(check, places[k], float(time[worst]), f"{text}{_ticks(beyond, time)}"))
     return found
 

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, OutputError
 from .comparison import Comparison
-from .figures import Figure, headlines
+from .figures import Figure, telling
 from .punctuality import is_live
 from .review import Review
 
 if TYPE_CHECKING:
     from plotly.graph_objects import Figure as Plot
 
+_ZOOM = "drag to zoom, double-click to see all"
 _STYLE = """
 body { font-family: system-ui, sans-serif; margin: 1.2em auto; max-width: 1500px; padding: 0 1em; color: #1b2733; }
 h1 { font-size: 1.5em; margin: 0.2em 0; } h2 { font-size: 1.15em; margin: 1.4em 0 0.3em; }
@@ -21,7 +22,7 @@ h1 { font-size: 1.5em; margin: 0.2em 0; } h2 { font-size: 1.15em; margin: 1.4em 
 .verdict.clean { background: #2e7d32; }
 .columns { display: flex; flex-wrap: wrap; gap: 0 3em; align-items: flex-start; }
 table { border-collapse: collapse; margin: 0.5em 0; } td, th { padding: 0.1em 0.9em 0.1em 0; text-align: left; }
-td.number { text-align: right; font-variant-numeric: tabular-nums; } td:first-child { color: #5a6a7a; }
+td.number, th { text-align: right; } td.number { font-variant-numeric: tabular-nums; } td:first-child { color: #5a6a7a; }
 li.finding { color: #c00000; } details { margin: 0.5em 0; }
 """
 
@@ -32,16 +33,20 @@ def write_page(found: Review, file: Path) -> None:
     Raises InputError when plotly is not installed and OutputError when the file cannot be written.
     """
     plots = _plots()
+    from .limits_plot import limit_bars
+    from .space_plot import in_space
+    from .spectra_plot import spectra
+
     run = found.run
     sections = [
         ("", _header(found)),
         ("", _findings(found)),
-        ("Over time: drag to zoom, double-click to see all", plots.over_time(found)),
-        ("In space", plots.in_space(run)),
+        (f"Over time, in the axes of the vehicle's body and of the cabin: {_ZOOM}", plots.over_time(found)),
+        ("In space, in the axes of the platform's base: drag to turn; a dot where each path begins", in_space(run)),
         *_punctuality(found),
-        ("Use of the limits", plots.limit_bars(run)),
-        ("Power spectra", plots.spectra(run)),
-        ("Every figure", _metrics(["value"], found.metrics.keys(), [found.metrics])),
+        ("Use of the limits", limit_bars(run)),
+        ("Power spectra, summed over the axes", spectra(run)),
+        ("Every figure", _metrics(["value"], list(found.metrics), [found.metrics])),
     ]
     _write(file, run.log.metadata.get("scenario", "") or run.log.path.name, sections)
 
@@ -56,7 +61,8 @@ def write_comparison(comparison: Comparison, file: Path) -> None:
     )
     sections = [
         ("", f"<h1>{' against '.join(escape(name) for name in comparison.names)}</h1><table>{heads}</table>"),
-        ("Rider less pilot", plots.overlays(comparison.names, runs)),
+        ("Rider less pilot, net turns, and what was limited", _headlines(comparison)),
+        (f"Over time: {_ZOOM}", plots.overlays(comparison.names, runs)),
         ("Every figure", _metrics(comparison.names, comparison.metric_names(), [each.metrics for each in comparison.reviews])),
     ]
     _write(file, " against ".join(comparison.names), sections)
@@ -82,6 +88,12 @@ def _punctuality(found: Review) -> "list[tuple[str, Plot]]":
     return [("Punctuality of the real-time loop", punctuality(found.run))]
 
 
+def _headlines(comparison: Comparison) -> str:
+    """The figures that tell most, one column a log."""
+    names = telling(name for each in comparison.reviews for name in each.metrics)
+    return _columns(comparison.names, names, [each.metrics for each in comparison.reviews])
+
+
 def _header(found: Review) -> str:
     """Verdict first, then what was flown and the figures that tell most."""
     metadata = found.run.log.metadata
@@ -91,9 +103,11 @@ def _header(found: Review) -> str:
         *((key.replace("_", " "), value) for key, value in metadata.items() if value),
     ]
     title = metadata.get("scenario", "") or found.run.log.path.name
+    errors = [name for name in telling(found.metrics) if "_rms_" in name]
+    others = [name for name in telling(found.metrics) if name not in errors]
     return (
-        f"<h1>{escape(title)} {_verdict(found)}</h1><div class='columns'>"
-        f"{_table(told)}{_table(headlines(found.metrics), number=True)}</div>"
+        f"<h1>{escape(title)} {_verdict(found)}</h1><div class='columns'>{_table(told)}"
+        f"{_columns(['rider less pilot'], errors, [found.metrics])}{_columns(['whole run'], others, [found.metrics])}</div>"
     )
 
 
@@ -107,19 +121,23 @@ def _findings(found: Review) -> str:
     return f"<h2>Findings and notes</h2><ul>{''.join(lines)}</ul>" if lines else ""
 
 
-def _table(rows: Sequence[tuple[str, str]], *, number: bool = False) -> str:
-    kind = " class='number'" if number else ""
-    return "<table>" + "".join(f"<tr><td>{escape(a)}</td><td{kind}>{escape(b)}</td></tr>" for a, b in rows) + "</table>"
+def _table(rows: Sequence[tuple[str, str]]) -> str:
+    return "<table>" + "".join(f"<tr><td>{escape(a)}</td><td>{escape(b)}</td></tr>" for a, b in rows) + "</table>"
 
 
-def _metrics(heads: Sequence[str], names: Any, columns: Sequence[dict[str, float]]) -> str:
+def _metrics(heads: Sequence[str], names: Sequence[str], columns: Sequence[dict[str, float]]) -> str:
     """All metrics, one column a log, folded away."""
+    return f"<details><summary>{len(names)} figures</summary>{_columns(heads, names, columns)}</details>"
+
+
+def _columns(heads: Sequence[str], names: Sequence[str], columns: Sequence[dict[str, float]]) -> str:
+    """Metrics by name, one column a log."""
     rows = [f"<tr><th></th>{''.join(f'<th>{escape(head)}</th>' for head in heads)}</tr>"]
     for name in names:
         figure = Figure.of(name)
         cells = "".join(f"<td class='number'>{figure.text(column.get(name))}</td>" for column in columns)
-        rows.append(f"<tr><td>{escape(figure.title)}</td>{cells}</tr>")
-    return f"<details><summary>{len(rows) - 1} figures</summary><table>{''.join(rows)}</table></details>"
+        rows.append(f"<tr><td>{escape(figure.title.replace('/s2', '/s²'))}</td>{cells}</tr>")
+    return f"<table>{''.join(rows)}</table>"
 
 
 def _write(file: Path, title: str, sections: "Sequence[tuple[str, str | Plot]]") -> None:

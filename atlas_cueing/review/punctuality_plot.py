@@ -7,7 +7,7 @@ import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
 from .finding import Array
-from .plots import SERIES, line, styled
+from .plots import SERIES, coloured, line, styled
 from .punctuality import timing
 from .recorded_run import RecordedRun
 from .thinning import thinned
@@ -17,7 +17,10 @@ _BINS = 120
 
 def punctuality(run: RecordedRun) -> Any:
     """Lateness and cost of the ticks: how often, and when; age of the input and missed deadlines beside them."""
-    titles = ["how many ticks, by µs", "over time, µs", "input age, ms (blue), deadlines missed (orange)"]
+    late, cost, age, missed = (
+        coloured(name, SERIES[k]) for k, name in enumerate(("lateness", "tick cost", "input age", "missed"))
+    )
+    titles = [f"how many ticks: {late}, {cost}", "over time, µs", f"{age}, ms, and deadlines {missed}"]
     figure = make_subplots(rows=1, cols=3, subplot_titles=titles)
     for k, (name, field) in enumerate((("lateness", "lateness_s"), ("tick cost", "cost_s"))):
         values = 1e6 * timing(run, field)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import InputError
+from ..errors import InputError, LogError
 from ..evaluation import Flight
 from ..recording import Log, read_log
 from ..scenario import Platform
@@ -59,8 +59,13 @@ def open_run(path: Path) -> RecordedRun:
 
 
 def open_log(path: Path) -> Log:
-    """Read a log. Raises InputError when there is no such file and LogError when it is damaged or not ours."""
-    return read_log(path, largest_content(path))
+    """Read a log. Raises InputError when there is no such file or a scenario, and LogError when it is damaged or not ours."""
+    try:
+        return read_log(path, largest_content(path))
+    except LogError as error:
+        if path.suffix == ".toml":
+            raise InputError(f"log {path}: is a TOML file, not a log; to fly a scenario: atlas-cueing run {path}") from error
+        raise
 
 
 def largest_content(path: Path) -> int:

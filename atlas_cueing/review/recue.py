@@ -1,12 +1,17 @@
 """The recorded vehicle of a log through another method, other parameters or another platform."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 from ..errors import InputError, LogError, OutputError, ScenarioError
 from ..recording import Log, McapRecorder
-from ..scenario import Scenario, load_scenario, prepare, recorded_vehicle
+from ..scenario import Scenario, prepare, recorded_vehicle
+from ..scenario.cueing import ALL_METHODS
+from ..scenario.load import resolve
+from ..scenario.overrides import parse_overrides
+from ..scenario.reading import read_toml
 from .attachments import SCENARIO, as_inside, unpacked
 from .recorded_run import open_log
 
@@ -16,9 +21,10 @@ _FLOWN = ("vehicle", "duration_s")  # keys of what has been flown already
 def recue(path: Path, settings: Sequence[str], output: Path) -> Scenario:
     """Write `output`, the flight of the log `path` cued anew with `KEY=VALUE` settings on top of the log's own scenario.
 
-    Without settings, cue, motion and wheels are the log's own to the last bit. States, result and reason are the flight's, so
-    they are kept. Gives the scenario. Raises InputError (nothing was written) for settings that do not fit, LogError for a log
-    that is damaged or holds no scenario.
+    Without settings, cue, motion and wheels are the log's own to the last bit. With another method, what the old one had by
+    default is left to the new one's defaults, as in a run; what was set for the old one stays where the new one knows the key.
+    States, result and reason are the flight's, so they are kept. Gives the scenario. Raises InputError (nothing was written)
+    for settings that do not fit, LogError for a log that is damaged or holds no scenario.
     """
     _refuse_flown(settings)
     log = open_log(path)
@@ -27,7 +33,7 @@ def recue(path: Path, settings: Sequence[str], output: Path) -> Scenario:
     recorded = recorded_vehicle(log)
     with unpacked(log) as folder:
         try:
-            scenario = load_scenario(folder / SCENARIO, [_from_here(text) for text in settings])
+            scenario = _cued_by(folder / SCENARIO, [_from_here(text) for text in settings])
         except ScenarioError as error:
             raise InputError("\n".join(as_inside(ScenarioError([mistake]), folder) for mistake in error.mistakes)) from error
         attachments = scenario.attachments()
@@ -44,6 +50,29 @@ def recue(path: Path, settings: Sequence[str], output: Path) -> Scenario:
         recorder.abandon()
         raise
     return scenario
+
+
+def _cued_by(file: Path, settings: Sequence[str]) -> Scenario:
+    """The log's scenario with the settings on top. Raises ScenarioError with every mistake."""
+    data, overrides = read_toml(file), parse_overrides(settings)
+    old = data.get("cueing")
+    if isinstance(old, dict) and overrides.get(("cueing", "method"), old.get("method")) != old.get("method"):
+        # a log's scenario names every value, so that the old method's defaults would pass for somebody's wish
+        method = ALL_METHODS.get(str(old.get("method")))
+        data["cueing"] = _changed(old, method().model_dump(mode="json") if method else {}) | {"method": old.get("method")}
+    return resolve(data, overrides, file)
+
+
+def _changed(table: Mapping[str, Any], defaults: Mapping[str, Any]) -> dict[str, Any]:
+    """What differs from the defaults, in tables within as well."""
+    changed = {}
+    for key, value in table.items():
+        default = defaults.get(key)
+        if isinstance(value, dict) and isinstance(default, dict):
+            changed[key] = _changed(value, default)
+        elif value != default:
+            changed[key] = value
+    return changed
 
 
 def _recorder(output: Path, scenario: Scenario, log: Log, attachments: dict[str, bytes]) -> McapRecorder:

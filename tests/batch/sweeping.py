@@ -1,13 +1,17 @@
 """Sweeps of short flights, and workers that come to harm on purpose."""
 
 import sys
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 import pytest
 
 from atlas_cueing.batch import workers
+from atlas_cueing.batch.alone import fly_alone
 from atlas_cueing.batch.order import Limits, Order
 from atlas_cueing.batch.plan import PlannedRun, plan
+from atlas_cueing.batch.record import Record, keep, kept
+from atlas_cueing.batch.results import results_at
 
 SWEEP = """
 name = "short"
@@ -27,10 +31,10 @@ import os, signal, sys, time
 from pathlib import Path
 from atlas_cueing.batch import alone, worker
 fly = worker.fly_alone
-def sabotaged(order):
+def sabotaged(order, desk):
     if "-attitude-" in order.id:
         {deed}
-    return fly(order)
+    return fly(order, desk)
 worker.fly_alone = sabotaged
 worker.main()
 """
@@ -42,9 +46,24 @@ def planned(folder: Path, *overrides: str, text: str = SWEEP) -> list[PlannedRun
     return plan([folder / "sweep.toml"], overrides)
 
 
-def order(run: PlannedRun, folder: Path, limits: Limits = LIMITS) -> Order:
-    """To fly `run` into `folder`."""
-    return Order.of(run, str(folder), limits)
+def order(run: PlannedRun, place: Path | str, limits: Limits = LIMITS) -> Order:
+    """To fly `run` into a folder or to a URL."""
+    return Order.of(run, str(place), limits)
+
+
+def fly_in_line(orders: Iterable[Order], stop: Callable[[], bool]) -> Iterator[Record]:
+    """The seam's plainest double: into folders, in this process, one after the other."""
+    for each in orders:
+        if stop():
+            return
+        record = fly_alone(each, Path(each.place))
+        keep(record, Path(each.place))
+        yield record
+
+
+def kept_in(place: Path | str, run: str) -> Record | None:
+    """The record that a batch would find there."""
+    return kept([run], results_at(str(place))).get(run)
 
 
 def sabotage(monkeypatch: pytest.MonkeyPatch, deed: str) -> None:

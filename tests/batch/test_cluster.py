@@ -9,11 +9,13 @@ from pathlib import Path
 from time import sleep
 from typing import Any
 
+import psutil
 import pytest
 
 from atlas_cueing.batch import cluster as cluster_module
 from atlas_cueing.batch import fly_batch, fly_here, on_cluster
 from atlas_cueing.batch.cluster import LOCAL, fly_order
+from atlas_cueing.batch.folder import FolderResults
 from atlas_cueing.errors import InputError
 
 from .sweeping import LIMITS, order, planned
@@ -28,7 +30,7 @@ def address() -> Iterator[str]:
 
     with (
         dask.config.set({"distributed.scheduler.allowed-failures": 1}),
-        LocalCluster(n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None) as local,
+        LocalCluster(n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0") as local,
     ):
         yield local.scheduler_address
 
@@ -36,9 +38,9 @@ def address() -> Iterator[str]:
 def test_the_same_bytes_as_without_a_cluster(tmp_path: Path, address: str) -> None:
     runs = planned(tmp_path)
     with on_cluster(address, 2) as fly:
-        outcomes = fly_batch(runs, tmp_path / "cluster", fly, LIMITS)
+        outcomes = fly_batch(runs, FolderResults(tmp_path / "cluster"), fly, LIMITS)
     assert all(outcome.record and outcome.record.clean for outcome in outcomes)
-    fly_batch(runs, tmp_path / "here", lambda orders, stop: fly_here(orders, 1, stop), LIMITS)
+    fly_batch(runs, FolderResults(tmp_path / "here"), lambda orders, stop: fly_here(orders, 1, stop), LIMITS)
     assert hashes(tmp_path / "cluster") == hashes(tmp_path / "here")
     assert len(hashes(tmp_path / "here")) == 4
 
@@ -74,6 +76,28 @@ def test_a_killed_dask_worker_costs_its_run_a_second_try(tmp_path: Path, address
         records = list(fly([order(run, tmp_path) for run in runs], lambda: False))
     killer.join()
     assert [record.result for record in records] == ["ok", "ok"]
+
+
+def test_a_cluster_of_ones_own_listens_on_the_loopback_only() -> None:
+    """A scheduler or worker runs whatever program it is handed."""
+    with on_cluster(LOCAL, 1):
+        here = psutil.Process()
+        sockets = [each for process in (here, *here.children(recursive=True)) for each in process.net_connections("inet")]
+    listening = [each.laddr.ip for each in sockets if each.status == psutil.CONN_LISTEN]
+    assert set(listening) == {"127.0.0.1"}
+    assert len(listening) >= 2
+
+
+def test_a_run_done_before_its_worker_was_lost_is_not_flown_again(tmp_path: Path, address: str) -> None:
+    """The scheduler recomputes results that only the lost worker had; the record that is there answers instead."""
+    run = planned(tmp_path)[0]
+    with on_cluster(address, 2) as fly:
+        (first,) = fly([order(run, tmp_path)], lambda: False)
+    log = tmp_path / first.log
+    before = (log.stat().st_ino, log.stat().st_mtime_ns)
+    with on_cluster(address, 2) as fly:
+        assert list(fly([order(run, tmp_path)], lambda: False)) == [first]
+    assert (log.stat().st_ino, log.stat().st_mtime_ns) == before
 
 
 class Future:

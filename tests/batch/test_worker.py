@@ -10,10 +10,11 @@ from time import monotonic, sleep
 import pytest
 
 from atlas_cueing.batch import workers
+from atlas_cueing.batch.folder import FolderResults
 from atlas_cueing.batch.order import Limits, Order
-from atlas_cueing.batch.record import Record, kept
+from atlas_cueing.batch.record import Record
 
-from .sweeping import order, planned, sabotage
+from .sweeping import kept_in, order, planned, sabotage
 
 METHODS = ("blend", "attitude")
 
@@ -53,7 +54,9 @@ def orders(folder: Path, limits: Limits) -> list[Order]:
         ("print('{}', flush=True); time.sleep(600)", Limits(time=1.0), "timed_out", "not over after 1 s"),
         ("bytearray(2 * 10**9)", Limits(memory=1.0), "out_of_memory", "needs more than 1 GB: ended with exit status 1"),
         (
-            "alone.run_scenario = lambda *_: bytearray(2 * 10**9); return fly(order)".replace("; return", "\n        return"),
+            "alone.run_scenario = lambda *_: bytearray(2 * 10**9); return fly(order, desk)".replace(
+                "; return", "\n        return"
+            ),
             Limits(memory=1.0),
             "out_of_memory",
             "needs more than 1 GB",
@@ -67,13 +70,13 @@ def test_one_runs_harm_is_no_others(
     sabotage(monkeypatch, deed)
     harmed, sound = told(orders(tmp_path, limits))
     assert (harmed.result, harmed.reason) == (result, reason)
-    assert kept(harmed.id, tmp_path) == harmed
+    assert kept_in(tmp_path, harmed.id) == harmed
     assert sound.result == "ok"
     assert (tmp_path / f"{sound.id}.mcap").is_file()
 
 
 def test_what_a_killed_run_recorded_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    sabotage(monkeypatch, "(Path(order.folder) / f'{order.id}.mcap.part').touch(); os.abort()")
+    sabotage(monkeypatch, "(Path(order.place) / f'{order.id}.mcap.part').touch(); os.abort()")
     harmed, _ = told(orders(tmp_path, Limits()))
     assert harmed.log == f"{harmed.id}.mcap.part"
 
@@ -93,7 +96,7 @@ def test_what_a_library_prints_in_the_worker_is_no_record(tmp_path: Path, monkey
 
 
 def test_when_the_driver_goes_the_run_goes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    sabotage(monkeypatch, "Path(order.folder, 'pid').write_text(str(os.getpid())); time.sleep(600)")
+    sabotage(monkeypatch, "Path(order.place, 'pid').write_text(str(os.getpid())); time.sleep(600)")
     process = subprocess.Popen(workers._COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     assert process.stdin
     process.stdin.write(orders(tmp_path, Limits())[0].to_line())
@@ -107,9 +110,18 @@ def test_when_the_driver_goes_the_run_goes(tmp_path: Path, monkeypatch: pytest.M
     assert not list(tmp_path.glob("*.json"))
 
 
+def test_a_worker_that_waits_for_another_ends_with_its_driver(tmp_path: Path) -> None:
+    mine = orders(tmp_path, Limits())[0]
+    process = subprocess.Popen(workers._COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    with FolderResults(tmp_path).claimed(mine.id):
+        assert process.communicate(mine.to_line(), timeout=60) == (b"", None)
+    assert process.returncode == 0
+    assert not list(tmp_path.glob("*.mcap*"))
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="death with the parent needs Linux's prctl")
 def test_when_the_worker_is_killed_the_run_goes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    deed = "alone.run_scenario = lambda *_: (Path(order.folder, 'pid').write_text(str(os.getpid())), time.sleep(600))"
+    deed = "alone.run_scenario = lambda *_: (Path(order.place, 'pid').write_text(str(os.getpid())), time.sleep(600))"
     sabotage(monkeypatch, deed)
     process = subprocess.Popen(workers._COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     assert process.stdin

@@ -81,6 +81,9 @@ def test_a_run_that_fails_is_a_finding(sweep: Command) -> None:
         (["s.toml", "-o", "out", "--cluster", "nonsense"], "--cluster nonsense: no scheduler reached"),
         (["s.toml", "-o", "out", "--sort", "beauty"], "--sort beauty: no such metric"),
         (["s.toml"], "--output"),
+        (["s.toml", "-o", "nonsense://out"], "-o nonsense://out: Protocol not known: nonsense"),
+        (["s.toml", "-o", "file://out"], "-o file://out: a local URL has three slashes"),
+        (["s.toml", "-o", "file:///no/such/place"], "file:///no/such/place: FileNotFoundError"),
     ],
     ids=lambda part: str(part)[:30],
 )
@@ -125,6 +128,33 @@ def test_a_local_cluster(sweep: Command, tmp_path: Path) -> None:
     here, there = ({path.name: path.read_bytes() for path in (tmp_path / name).glob("*.mcap")} for name in ("here", "there"))
     assert len(here) == 4
     assert here == there
+
+
+def test_to_a_url_and_again(sweep: Command, tmp_path: Path) -> None:
+    """The same files as in a folder, the second time only what is missing, and pages for what is there."""
+    url = f"file://{tmp_path}/there"
+    assert sweep("batch", "s.toml", "-o", "here").status == 0
+    first = sweep("batch", "s.toml", "-o", url, "--jobs", "1", "--top", "0")
+    assert first.status == 0
+    assert f"overview    {url}/index.html" in first.out.splitlines()
+    here, there = ({path.name for path in (tmp_path / name).iterdir()} for name in ("here", "there"))
+    assert there == {name for name in here if not name.endswith(".lock")}
+    logs = {path: path.stat() for path in (tmp_path / "there").glob("*.mcap")}
+    assert all(path.read_bytes() == (tmp_path / "here" / path.name).read_bytes() for path in logs)
+    (gone, *_) = logs
+    gone.unlink()
+    again = sweep("batch", "s.toml", "-o", url, "--json", "--pages")
+    assert (again.status, json.loads(again.out)["folder"]) == (0, url)
+    assert again.err.startswith("4 runs, 3 of them done already")
+    assert all(
+        (path.stat().st_ino, path.stat().st_mtime_ns) == (was.st_ino, was.st_mtime_ns)
+        for path, was in logs.items()
+        if path != gone
+    )
+    assert gone.read_bytes() == (tmp_path / "here" / gone.name).read_bytes()
+    overview = (tmp_path / "there" / "index.html").read_text()
+    assert all(f'href="{path.stem}.html"' in overview and path.with_suffix(".html").is_file() for path in logs)
+    assert not list((tmp_path / "there").glob("*.upload"))
 
 
 def started(folder: Path) -> "subprocess.Popen[str]":

@@ -27,9 +27,12 @@ def test_review_has_the_platforms_matrices() -> None:
 def test_shares() -> None:
     run = coning()
     shares = limit_shares(run)
-    assert list(shares) == ["wheel_speed", "wheel_acceleration", "stage_travel", "stage_speed", "stage_acceleration"]
+    wheels, stage = ["wheel_speed", "wheel_acceleration", "wheel_jerk"], ["stage_speed", "stage_acceleration", "stage_jerk"]
+    assert list(shares) == [*wheels, "stage_travel", *stage]
     assert shares["wheel_speed"] * 31.0 == pytest.approx(run.flight.wheel_speed)
     assert shares["stage_travel"][:, 2] == pytest.approx(0.0)
+    t = run.flight.time[:-1] + 0.005
+    assert shares["stage_jerk"][:, 0] * 60.0 == pytest.approx(-0.2 * np.cos(t) + 0.8 * np.cos(2 * t), abs=1e-4)
 
 
 @pytest.mark.parametrize(

@@ -34,3 +34,8 @@ def test_resting_on_a_bound_is_fair_and_nan_is_not_judged() -> None:
 
 def test_a_finding_of_the_whole_log() -> None:
     assert str(Finding("result", "atlas.run", None, "no")) == "atlas.run: result: no"
+
+
+def test_a_quantity_without_unit_ends_in_its_number() -> None:
+    (found,) = exceeding("norm", ["q"], np.array([0.0]), np.array([2.0]), 1.0, "")
+    assert found.text == "|value| = 2, allowed: |value| <= 1"

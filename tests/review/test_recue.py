@@ -8,6 +8,7 @@ import pytest
 from atlas_cueing.errors import InputError, LogError
 from atlas_cueing.recording import read_log
 from atlas_cueing.review import recue, review
+from atlas_cueing.scenario.cueing import METHODS, ForceTable
 
 from .conftest import SCENARIOS, fly
 from .corrupting import corrupted
@@ -39,6 +40,25 @@ def test_another_method_and_platform(flight: Path, tmp_path: Path) -> None:
         assert np.array_equal(table.values, new.tables[topic].values), topic
     assert new.metadata["method"] == "attitude"
     assert not np.array_equal(new.tables["/cue"].values, read_log(flight).tables["/cue"].values)
+
+
+@pytest.mark.parametrize("old", ["blend", "classical"])
+@pytest.mark.parametrize("new", METHODS)
+def test_another_method_comes_with_its_own_defaults(tmp_path: Path, old: str, new: str) -> None:
+    """A log names every value; the old method's must not pass for wishes: its slow turn, its gains, its stage."""
+    flown = fly(tmp_path, "duration_s=0.5", f"cueing.method={old}")
+    recue(flown, [f"cueing.method={new}"], tmp_path / "new.mcap")
+    run = read_log(fly(tmp_path, "duration_s=0.5", f"cueing.method={new}", name="run.mcap"))
+    recued = read_log(tmp_path / "new.mcap")
+    assert recued.attachments == run.attachments
+    assert np.array_equal(recued.tables["/wheels"].values, run.tables["/wheels"].values)
+
+
+def test_what_was_set_for_the_old_method_stays_for_the_new_one(tmp_path: Path) -> None:
+    flown = fly(tmp_path, "duration_s=0.5", "cueing.align_rate_deg_s=2.0", "cueing.stage.bandwidth_hz=4.0")
+    cueing = recue(flown, ["cueing.method=force"], tmp_path / "new.mcap").file.cueing
+    assert isinstance(cueing, ForceTable)
+    assert (cueing.align_rate_deg_s, cueing.align_time_s, cueing.stage.bandwidth_hz) == (2.0, 0.5, 4.0)
 
 
 def test_a_platform_file_is_found_where_the_command_is_called(

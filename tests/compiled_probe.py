@@ -1,0 +1,91 @@
+"""What a build of the package computes, as hashes: python compiled_probe.py FOLDER, run with the build on the path.
+
+Whole flights (the bytes of their logs) and smoothing under hostile cues (every number it gave).
+"""
+
+import hashlib
+import json
+import random
+import sys
+from collections.abc import Iterator
+from math import inf, nan
+from pathlib import Path
+
+from atlas_cueing import rotation
+from atlas_cueing.batch import run_scenario
+from atlas_cueing.errors import PlanningError
+from atlas_cueing.scenario import load_platform, load_scenario
+from atlas_cueing.signals import Cue
+from atlas_cueing.smoothing import Smoothing
+from atlas_cueing.wheels import Wheels
+
+SCENARIO = """
+name = "{name}"
+duration_s = {duration}
+{vehicle}
+[platform]
+preset = "atlas-2.9m"
+[cueing]
+method = "{method}"
+"""
+AIRCRAFT = """
+[vehicle]
+aircraft = "f16"
+initial = { altitude_m = 3000.0, airspeed_m_s = 200.0 }
+input = [{ time_s = 1.0, property = "fcs/aileron-cmd-norm", value = 0.5, ramp_s = 0.2 }]
+"""
+SCRIPT = '[vehicle]\nscript = "c172_elevator_doublet"'
+FLIGHTS = [("f16", 4.0, AIRCRAFT, method) for method in ("attitude", "blend", "force", "classical")]
+FLIGHTS += [("doublet", 25.0, SCRIPT, "blend")]
+AWKWARD = (nan, inf, -inf, 1e300, -1e200, 1e-300, 0.0, -0.0, 1e6)
+TICKS = 20_000
+
+
+def flown(folder: Path) -> Iterator[tuple[str, str]]:
+    for name, duration, vehicle, method in FLIGHTS:
+        file, log = folder / f"{name}.toml", folder / f"{name}_{method}.mcap"
+        file.write_text(SCENARIO.format(name=name, duration=duration, vehicle=vehicle, method=method))
+        result = run_scenario(load_scenario(file), log)
+        yield log.name, f"{result.result} {result.ticks} {hashlib.sha256(log.read_bytes()).hexdigest()}"
+
+
+def cues(randomly: random.Random) -> Iterator[Cue]:
+    """Cues that wander, jump, and are now and then none."""
+    q = rotation.IDENTITY
+    for k in range(TICKS):
+        vector = [tuple(randomly.gauss(0.0, 3.0) for _ in range(3)) for _ in range(4)]
+        q = rotation.normalise(rotation.multiply(rotation.exp(rotation.scale(0.01, vector[0])), q))  # type: ignore[arg-type]
+        if randomly.random() < 0.01:
+            q = rotation.exp(rotation.scale(3.0, vector[1]))  # type: ignore[arg-type]
+        numbers = [*q, *(x for v in vector for x in v)]
+        if randomly.random() < 0.05:
+            numbers[randomly.randrange(len(numbers))] = randomly.choice(AWKWARD)
+        a, b, c, d, *rest = numbers
+        triples = [(rest[i], rest[i + 1], rest[i + 2]) for i in range(0, 12, 3)]
+        yield Cue(k / 120.0, (a, b, c, d) if k else rotation.IDENTITY, *triples)
+
+
+def smoothed() -> str:
+    platform = load_platform("atlas-2.9m")
+    wheels = Wheels(platform.geometry())
+    smoothing = Smoothing(
+        dt=1.0 / 120.0,
+        wheels_from_sphere=wheels.wheels_from_sphere,
+        sphere_from_wheels=wheels.sphere_from_wheels,
+        wheel_limits=platform.wheel_speed_limits(),
+        stage_limits=platform.stage_motion_limits(),
+    )
+    digest = hashlib.sha256()
+    for cue in cues(random.Random(8)):
+        try:
+            motion = smoothing.step(cue)
+        except PlanningError as error:
+            digest.update(str(error).encode())
+        else:
+            digest.update(repr((motion, wheels.speeds(motion))).encode())
+    return digest.hexdigest()
+
+
+if __name__ == "__main__":
+    found = {"code": Path(rotation.__file__).suffix, **dict(flown(Path(sys.argv[1]))), "smoothing": smoothed()}
+    sys.stdout.write(json.dumps(found))

@@ -1,0 +1,139 @@
+"""Everything that can go wrong in a live run, to be done to a rig, with the state that follows."""
+
+from collections.abc import Callable, Mapping
+from math import nan
+
+from atlas_cueing.live.states import State
+from atlas_cueing.signals import Motion
+
+from .rig import Rig
+
+Fault = Callable[[Rig], None]
+ALL = frozenset(State)
+FAULTS = frozenset({State.FAULT_STOPPING, State.STOPPED})
+FOLLOWING = frozenset({State.ENGAGING, State.RUNNING})
+
+
+class DefectError(RuntimeError):
+    """What a defect raises."""
+
+
+def quiet(seconds: float) -> Fault:
+    def fault(rig: Rig) -> None:
+        rig.source.quiet = True
+        rig.fly(seconds)
+        rig.source.quiet = False
+
+    return fault
+
+
+def bad_samples(rig: Rig) -> None:
+    rig.source.bad = 3
+    rig.fly(3 * rig.dt)
+
+
+def jump(rig: Rig) -> None:
+    rig.source.jumps = True
+    rig.tick()
+
+
+def missed(rig: Rig) -> None:
+    rig.tick(lateness=0.006, missed_in_a_row=6)
+
+
+def late(rig: Rig) -> None:
+    rig.tick(lateness=0.025)
+
+
+def broken_source(rig: Rig) -> None:
+    """For good: nothing may depend on its coming back."""
+    rig.source.raises = DefectError("source")
+    rig.tick()
+
+
+def broken_cueing(rig: Rig) -> None:
+    once(rig, rig.ride._cueing)
+
+
+def broken_smoothing(rig: Rig) -> None:
+    once(rig, rig.ride._pipeline.smoothing)
+
+
+def once(rig: Rig, part: object) -> None:
+    """One tick with a part that raises."""
+
+    def step(_: object) -> None:
+        raise DefectError(type(part).__name__)
+
+    if part is not None:
+        part.step = step  # type: ignore[attr-defined]
+    rig.tick()
+    if part is not None:
+        del part.step  # type: ignore[attr-defined]
+
+
+def broken_wheels(rig: Rig) -> None:
+    pipeline = rig.ride._pipeline
+    replace_wheels(pipeline, Raising())
+    rig.tick()
+    replace_wheels(rig.ride._pipeline, pipeline_wheels(rig))
+
+
+class Raising:
+    def speeds(self, motion: Motion) -> None:
+        raise DefectError(f"wheels at {motion.time}")
+
+
+def replace_wheels(pipeline: object, wheels: object) -> None:
+    object.__setattr__(pipeline, "wheels", wheels)
+
+
+def pipeline_wheels(rig: Rig) -> object:
+    return rig.pipeline().wheels
+
+
+def illegal(corrupt: Callable[[Motion], Motion]) -> Fault:
+    """One motion that smoothing should never give."""
+
+    def fault(rig: Rig) -> None:
+        smoothing = rig.ride._pipeline.smoothing
+        step = smoothing.step
+        smoothing.step = lambda cue: corrupt(step(cue))  # type: ignore[method-assign]
+        rig.tick()
+        del smoothing.step  # type: ignore[method-assign]
+
+    return fault
+
+
+def shifted(m: Motion) -> Motion:
+    x, y, z = m.p_WS_W
+    return Motion(m.time, m.q_WS, m.w_WS_W, m.alpha_WS_W, (x + 0.01, y, z), m.v_WS_W, m.a_WS_W, m.limited)
+
+
+def jerked(m: Motion) -> Motion:
+    x, y, z = m.w_WS_W
+    return Motion(m.time, m.q_WS, (x + 0.5, y, z), m.alpha_WS_W, m.p_WS_W, m.v_WS_W, m.a_WS_W, m.limited)
+
+
+def no_number(m: Motion) -> Motion:
+    return Motion(m.time, m.q_WS, (nan, nan, nan), m.alpha_WS_W, m.p_WS_W, m.v_WS_W, m.a_WS_W, m.limited)
+
+
+# Which states a fault leaves, and for which; it leaves all others as they are.
+MATRIX: Mapping[str, tuple[Fault, frozenset[State], State]] = {
+    "quiet 50 ms": (quiet(0.05), frozenset(), State.RUNNING),
+    "quiet 150 ms": (quiet(0.15), FOLLOWING, State.HOLDING),
+    "quiet 1.5 s": (quiet(1.5), FOLLOWING | {State.HOLDING}, State.PARKING),
+    "three bad samples": (bad_samples, FOLLOWING, State.HOLDING),
+    "jump": (jump, FOLLOWING, State.HOLDING),
+    "six deadlines": (missed, ALL - FAULTS, State.FAULT_STOPPING),
+    "25 ms late": (late, ALL - FAULTS, State.FAULT_STOPPING),
+    "source raises": (broken_source, ALL - FAULTS, State.FAULT_STOPPING),
+    "cueing raises": (broken_cueing, FOLLOWING, State.FAULT_STOPPING),
+    "smoothing raises": (broken_smoothing, ALL - FAULTS, State.FAULT_STOPPING),
+    "wheels raise": (broken_wheels, ALL - FAULTS, State.FAULT_STOPPING),
+    "stage shifted": (illegal(shifted), ALL - FAULTS, State.FAULT_STOPPING),
+    "sphere jerked": (illegal(jerked), ALL - FAULTS, State.FAULT_STOPPING),
+    "not a number": (illegal(no_number), ALL - FAULTS, State.FAULT_STOPPING),
+}
+LEADS_ON = {State.FAULT_STOPPING: {State.STOPPED}, State.PARKING: {State.PARKED}, State.ENGAGING: {State.RUNNING}}
