@@ -9,7 +9,7 @@ from pathlib import Path
 import jsbsim
 
 _NODE = r"[A-Za-z_][\w.-]*(\[[0-9]{1,6}\])?"
-_PROPERTY = re.compile(rf"{_NODE}(/{_NODE})*", re.ASCII)
+_PROPERTY = re.compile(rf"/?{_NODE}(/{_NODE})*", re.ASCII)  # the root may be named
 
 
 def root() -> Path:

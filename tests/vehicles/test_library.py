@@ -34,10 +34,11 @@ def test_every_property_of_a_model_has_a_name() -> None:
     assert len(names) > 100
     assert [name for name in names if not is_property_name(name)] == []
     assert is_property_name("propulsion/engine[1]/set-running")
+    assert is_property_name("/systems/electrical/outputs/bus115v")
 
 
 @pytest.mark.parametrize(
-    "name", ["", "/", "..", "../..", "a/../b", "[[[", "a[", "a[x]", "a[-1]", "%s%n", "-a", "a/", "a//b", "\u00e9"]
+    "name", ["", "/", "..", "../..", "a/../b", "[[[", "a[", "a[x]", "a[-1]", "%s%n", "-a", "a/", "a//b", "//a", "\u00e9"]
 )
 def test_what_can_be_no_name(name: str) -> None:
     assert not is_property_name(name)

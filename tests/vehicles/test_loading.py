@@ -116,3 +116,14 @@ def test_the_private_folder_is_gone_after_loading(tmp_path: Path, monkeypatch: p
     with pytest.raises(InputError):
         load(AircraftFlight("nope", CRUISE))
     assert list(tmp_path.iterdir()) == []
+
+
+def test_own_scripts_load_but_for_these() -> None:
+    """Three are no scripts, and one sets a property that its aircraft does not have."""
+    refused = set()
+    for name, script in own_scripts().items():
+        try:
+            load(ScriptFlight(script))
+        except InputError:
+            refused.add(name)
+    assert refused == {"kml_output", "plotfile", "unitconversions", "737_cruise_steady_turn_simplex"}
