@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from ..scenario import Scenario
 
 _HIGHEST_PORT = 65535
+_LARGEST_KEY = 4096  # bytes; SHA-256 uses no more than 64 of them as they are
 
 
 @contextmanager
@@ -64,9 +65,12 @@ def _address(text: str) -> tuple[str, int]:
 
 def _key(file: Path) -> bytes:
     try:
-        key = file.read_bytes().strip()
+        with file.open("rb") as opened:  # perhaps the pipe of a password manager
+            key = opened.read(_LARGEST_KEY + 1)
     except OSError as error:
         raise InputError(f"--key {file}: {error.strerror}") from error
-    if not key:
+    if len(key) > _LARGEST_KEY:
+        raise InputError(f"--key {file}: too large, allowed: size <= {_LARGEST_KEY} bytes")
+    if not key.strip():
         raise InputError(f"--key {file}: holds no key")
-    return key
+    return key.strip()

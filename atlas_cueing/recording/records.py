@@ -59,6 +59,8 @@ class RecordReader:
             before = self._crc
             head = self._take(_head.size)
             opcode, length = _head.unpack(head)
+            if opcode == 0:  # which MCAP forbids; a hole of 10 GB is a billion of them
+                raise LogError("a record has no kind")
             if length > MAX_RECORD:
                 raise LogError(f"a record claims {length} bytes, allowed: at most {MAX_RECORD}")
             body = self._take(length)

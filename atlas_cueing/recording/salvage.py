@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 from mcap.data_stream import ReadDataStream
@@ -26,6 +26,7 @@ from .recorder import RUN_METADATA
 from .records import MAX_RECORD, unpack
 from .wire import MESSAGE_OPCODE, RECORD_HEAD
 
+MAX_SEARCHED = 256 * 2**20  # bytes that are no record, in which chunks are looked for; 10 GB of them would take a minute
 _COMPRESSION = b"\x04\x00\x00\x00zstd"  # a length and a word, 37 bytes into every chunk of ours
 _INTO_CHUNK = RECORD_HEAD + 28
 _head = struct.Struct("<BQ")
@@ -110,30 +111,38 @@ def rewrite(found: Salvage, output: Path, metadata: Mapping[str, str]) -> None:
     Raises LogError when the descriptions of the channels are lost, and OSError when it cannot be written.
     """
     part = output.with_name(output.name + ".recovering")  # the .part may be the very log that is recovered
-    with part.open("wb") as target, found.path.open("rb") as source:
-        container = Container(target.write)
-        for number in range(1, max(found.channels, default=0) + 1):
-            _add_channel(container, found, number)
-        for name, content in found.attachments.items():
-            container.add_attachment(name, "application/toml", content)
-        for start, end in found.chunks:
-            source.seek(start)
-            chunk = _encoded(unpack(Chunk.read(_stream(source.read(end - start)))), found)
-            if chunk.index:  # whole, but without any message
-                container.add_chunk(chunk)
-        container.add_metadata(RUN_METADATA, metadata)
-        container.finish()
-    part.replace(output)
+    try:
+        with part.open("wb") as target, found.path.open("rb") as source:
+            _write(found, source, Container(target.write), metadata)
+        part.replace(output)
+    except OSError:
+        part.unlink(missing_ok=True)  # half of it is of no use: the broken log is still there
+        raise
+
+
+def _write(found: Salvage, source: BinaryIO, container: Container, metadata: Mapping[str, str]) -> None:
+    for number in range(1, max(found.channels, default=0) + 1):
+        _add_channel(container, found, number)
+    for name, content in found.attachments.items():
+        container.add_attachment(name, "application/toml", content)
+    for start, end in found.chunks:
+        source.seek(start)
+        chunk = _encoded(unpack(Chunk.read(_stream(source.read(end - start)))), found)
+        if chunk.index:  # whole, but without any message
+            container.add_chunk(chunk)
+    container.add_metadata(RUN_METADATA, metadata)
+    container.finish()
 
 
 def _walk(data: mmap.mmap, found: Salvage) -> None:
     """Take every whole record of the file, looking for the next chunk wherever the chain of records breaks."""
-    position = len(MAGIC)
+    position, searched = len(MAGIC), 0
     while position < len(data) - len(MAGIC):
         end = _take(data, position, found)
         if end is None:
             found.complete = False
-            end = _next_chunk(data, position + 1)
+            end = _next_chunk(data, position + 1, position + MAX_SEARCHED - searched)
+            searched += end - position
         position = end
 
 
@@ -165,9 +174,9 @@ def _follows(data: mmap.mmap, position: int) -> bool:
     return position + RECORD_HEAD <= len(data) and data[position] in _KNOWN
 
 
-def _next_chunk(data: mmap.mmap, position: int) -> int:
-    """Start of the next thing that looks like a chunk; the end of the file when there is none."""
-    while (place := data.find(_COMPRESSION, position + _INTO_CHUNK)) >= 0:
+def _next_chunk(data: mmap.mmap, position: int, last: int) -> int:
+    """Start of the next thing that looks like a chunk, up to `last`; the end of the file when there is none."""
+    while (place := data.find(_COMPRESSION, position + _INTO_CHUNK, max(last, position) + _INTO_CHUNK)) >= 0:
         start = place - _INTO_CHUNK
         if data[start] == Opcode.CHUNK:
             return start

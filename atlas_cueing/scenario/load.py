@@ -1,5 +1,7 @@
 """Files to scenarios: everything is checked, and all mistakes are reported at once."""
 
+import os
+import pickle
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -10,9 +12,9 @@ from pydantic import ValidationError
 from ..errors import Mistake, ScenarioError
 from .cueing import ALL_METHODS, DEFAULT_METHOD
 from .mistakes import MOST_SHOWN, SET, FileNamer, Key, dotted, mistakes_of, more, nearest
-from .overrides import Overrides, apply_overrides, parse_overrides
+from .overrides import Overrides, apply_overrides, parse_overrides, with_own
 from .platform import Platform, presets
-from .reading import read_toml
+from .reading import TomlFiles, read_toml
 from .scenario import Scenario, ScenarioFile, is_path
 from .table import Table
 from .vehicle import vehicle_rules
@@ -35,8 +37,33 @@ def load_scenario(path: Path, overrides: Sequence[str] = (), *, trust_models: bo
     return resolve(read_toml(path), settings, path, trust_models=trust_models)
 
 
-def resolve(data: dict[str, Any], settings: Overrides, path: Path, *, trust_models: bool = False) -> Scenario:
-    """As `load_scenario` for the table that `path` holds, which is changed, and overrides read already."""
+class Platforms:
+    """Platforms by file and overrides, each read and checked once, however many scenarios have it."""
+
+    def __init__(self) -> None:
+        self._files = TomlFiles()
+        self._known: dict[tuple[Path, bytes], tuple[Platform | None, list[Mistake]]] = {}
+
+    def get(self, path: Path, overrides: Overrides) -> tuple[Platform | None, list[Mistake]]:
+        """The platform, or none and what is wrong with it."""
+        key = path, pickle.dumps(overrides)  # tells 1, 1.0 and true apart, which are equal
+        if key not in self._known:
+            self._known[key] = _read_platform(path, overrides, self._files)
+        return self._known[key]
+
+
+def resolve(
+    data: dict[str, Any],
+    settings: Overrides,
+    path: Path,
+    *,
+    trust_models: bool = False,
+    platforms: Platforms | None = None,
+) -> Scenario:
+    """As `load_scenario` for the table that `path` holds, which is changed, and overrides read already.
+
+    platforms: of the scenarios before this one, when there are many.
+    """
     deep = {
         key[1:]: value for key, value in settings.items() if key[0] == "platform" and len(key) > 1 and key[1] not in _CHOICE
     }
@@ -47,7 +74,7 @@ def resolve(data: dict[str, Any], settings: Overrides, path: Path, *, trust_mode
     file, found = _validate(ScenarioFile, data, FileNamer(str(path), flat), path.parent)
     broken = _broken_rules(data, FileNamer(str(path), flat))
     mistakes += found + broken[:MOST_SHOWN] + more(len(broken) - MOST_SHOWN, str(path))
-    platform, found = _chosen_platform(data.get("platform"), path.parent, deep)
+    platform, found = _chosen_platform(data.get("platform"), path.parent, deep, platforms or Platforms())
     mistakes += found
     if mistakes or file is None or platform is None:
         raise ScenarioError(mistakes)
@@ -57,19 +84,19 @@ def resolve(data: dict[str, Any], settings: Overrides, path: Path, *, trust_mode
 def load_platform(name_or_path: str) -> Platform:
     """A platform of the package by name, or a platform file by path. Raises ScenarioError with every mistake."""
     path = presets().get(name_or_path, Path(name_or_path))
-    if not path.exists():
+    if not os.path.exists(path):  # Path.exists raises when a name is too long
         raise ScenarioError(
             [Mistake(name_or_path, "file", "", f"no such file or platform; {nearest(name_or_path, presets())}")]
         )
-    platform, mistakes = _read_platform(path, {})
+    platform, mistakes = Platforms().get(path, {})
     if platform is None:
         raise ScenarioError(mistakes)
     return platform
 
 
-def _read_platform(path: Path, overrides: Overrides) -> tuple[Platform | None, list[Mistake]]:
+def _read_platform(path: Path, overrides: Overrides, files: TomlFiles) -> tuple[Platform | None, list[Mistake]]:
     try:
-        data = read_toml(path)
+        data = with_own(files.read(path), overrides)
     except ScenarioError as error:
         return None, list(error.mistakes)
     mistakes = apply_overrides(data, overrides)
@@ -79,15 +106,17 @@ def _read_platform(path: Path, overrides: Overrides) -> tuple[Platform | None, l
     return platform, [replace(m, key=f"platform.{m.key}") if m.file == SET else m for m in mistakes + found]
 
 
-def _chosen_platform(choice: Any, folder: Path, overrides: Overrides) -> tuple[Platform | None, list[Mistake]]:
+def _chosen_platform(
+    choice: Any, folder: Path, overrides: Overrides, platforms: Platforms
+) -> tuple[Platform | None, list[Mistake]]:
     """The platform of a `[platform]` table; none, and no mistake either, when the table itself is wrong."""
     if not isinstance(choice, dict):
         return None, []
     preset, file = (choice.get(key) for key in _CHOICE)
     if isinstance(preset, str) and preset in presets() and file is None:
-        return _read_platform(presets()[preset], overrides)
+        return platforms.get(presets()[preset], overrides)
     if isinstance(file, str) and is_path(file) and preset is None:
-        return _read_platform(folder / file, overrides)
+        return platforms.get(folder / file, overrides)
     return None, []
 
 

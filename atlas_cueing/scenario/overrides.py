@@ -1,6 +1,7 @@
 """`--set KEY=VALUE`: keys of a scenario or platform set from the command line."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from copy import copy
 from typing import Any, TypeAlias
 
 from ..errors import Mistake, ScenarioError
@@ -57,6 +58,31 @@ def apply_overrides(data: dict[str, Any], overrides: Overrides) -> list[Mistake]
         if reason:
             mistakes.append(Mistake(SET, dotted(key), shown(value), reason))
     return mistakes
+
+
+def with_own(data: dict[str, Any], keys: Iterable[Key]) -> dict[str, Any]:
+    """The same table again, whose values at these keys can be set by `apply_overrides` while `data` stays as it is.
+
+    What lies beside the keys is shared: a sweep has one file and thousands of runs.
+    """
+    own = {name: dict(inner) if isinstance(inner, dict) else inner for name, inner in data.items()}
+    for key in keys:
+        here: Any = own
+        for part in key[:-1]:
+            place = part if isinstance(here, list) else str(part)
+            inner = _inside(here, place)
+            if not isinstance(inner, dict | list):
+                break
+            here[place] = copy(inner)
+            here = here[place]
+    return own
+
+
+def _inside(container: Any, place: Any) -> Any:
+    try:
+        return container[place]
+    except (KeyError, IndexError, TypeError):  # said by `apply_overrides`
+        return None
 
 
 def _put(data: Any, key: Key, value: Any) -> str:

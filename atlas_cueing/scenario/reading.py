@@ -6,6 +6,7 @@ tomllib takes seconds for one dotted key of 40 kB and raises RecursionError for 
 import re
 import stat
 import tomllib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -35,6 +36,25 @@ _BETWEEN_KEYS = re.compile(r"[=,{}\[\]\n]")
 def read_toml(path: Path) -> dict[str, Any]:
     """The file as a table. Raises ScenarioError when it cannot be read, is too large or nested, or is not TOML."""
     return parse_toml(_read(path), str(path))
+
+
+class TomlFiles:
+    """Files as they were when first asked for, each read once, for many scenarios that have them in common."""
+
+    def __init__(self) -> None:
+        self._found: dict[Path, dict[str, Any] | ScenarioError] = {}
+
+    def read(self, path: Path) -> dict[str, Any]:
+        """As `read_toml`; the table is the same each time, not to be changed."""
+        if path not in self._found:
+            try:
+                self._found[path] = read_toml(path)
+            except ScenarioError as error:
+                self._found[path] = error
+        found = self._found[path]
+        if isinstance(found, ScenarioError):
+            raise found
+        return found
 
 
 def parse_toml(text: str, file: str) -> dict[str, Any]:
@@ -78,21 +98,29 @@ def _check_shape(text: str, file: str) -> None:
             raise _mistake(file, "TOML", f"nested too deeply, allowed: brackets <= {DEEPEST_NESTING}")
 
 
+def count_keys(table: dict[str, Any]) -> int:
+    """Keys of a table and of all tables in it."""
+    return sum(map(len, _tables_of(table)))
+
+
 def _check_keys(table: dict[str, Any], file: str) -> None:
     """Messages name keys, and each mistake is a message."""
-    keys = 0
+    for key in (key for inner in _tables_of(table) for key in inner if len(key) > LONGEST_KEY):
+        raise _mistake(file, f"{key[:LONGEST_KEY]!r}...", f"a key is too long, allowed: length <= {LONGEST_KEY}")
+    keys = count_keys(table)
+    if keys > MOST_KEYS:
+        raise _mistake(file, "file", f"{keys} keys, allowed: keys <= {MOST_KEYS}")
+
+
+def _tables_of(table: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """The table and all in it, without recursion."""
     inside: list[Any] = [table]
     while inside:
         here = inside.pop()
         if isinstance(here, dict):
-            keys += len(here)
-            for key in here:
-                if len(key) > LONGEST_KEY:
-                    raise _mistake(file, f"{key[:LONGEST_KEY]!r}...", f"a key is too long, allowed: length <= {LONGEST_KEY}")
+            yield here
         values = here.values() if isinstance(here, dict) else here
         inside += [inner for inner in values if isinstance(inner, dict | list)]
-    if keys > MOST_KEYS:
-        raise _mistake(file, "file", f"{keys} keys, allowed: keys <= {MOST_KEYS}")
 
 
 def _mistake(file: str, key: str, allowed: str) -> ScenarioError:

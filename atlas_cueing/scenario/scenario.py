@@ -20,6 +20,8 @@ from .vehicle import Flight, LiveFlight, VehicleTable
 # The other topics are what the run is evaluated from.
 DISPENSABLE_TOPICS = ("/tf",)
 _MOST_SKIPPED = 20  # topics; a log has eight
+_LONGEST_DESCRIPTION = 2000  # characters; it goes into every log of a sweep
+_SHORT = text(f"a text of at most {_LONGEST_DESCRIPTION} characters", lambda written: len(written) <= _LONGEST_DESCRIPTION)
 
 
 def _known_preset(value: Any) -> str:
@@ -40,7 +42,11 @@ def _dispensable(value: Any) -> str:
 
 
 class PlatformChoice(Table):
-    """`[platform]`: exactly one of `preset` and `file`, which `platform_rules` checks."""
+    """`[platform]`: exactly one of `preset` and `file`, which `load` checks.
+
+    The file may be anywhere that the user may read, for it is data: a small regular file of checked numbers, or it is refused.
+    Only what is a program, a script, has to lie in the scenario's folder.
+    """
 
     preset: Annotated[str, BeforeValidator(_known_preset)] | None = None
     file: Annotated[str, text("path of a platform file, from the scenario's folder", is_path)] | None = None
@@ -67,7 +73,7 @@ class ScenarioFile(Table):
     """A scenario file; validate it with `context={"folder": ...}`, where user's scripts are looked for."""
 
     name: Annotated[str, NAME]
-    description: str = ""
+    description: Annotated[str, _SHORT] = ""
     duration_s: Annotated[float, number(0.0, 86400.0, above=True)] | None = None
     vehicle: VehicleTable
     platform: PlatformChoice

@@ -12,7 +12,6 @@ every point of the grid gets the same draws, so that they compare.
 """
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from copy import deepcopy
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from itertools import product
@@ -26,21 +25,23 @@ from pydantic import ValidationError
 from ..errors import Mistake, ScenarioError
 from ..vehicles import own_aircraft, own_scripts
 from .cueing import METHODS
-from .load import resolve
+from .load import Platforms, resolve
 from .mistakes import SET, FileNamer, Key, dotted, mistakes_of, more, nearest, shown
-from .overrides import Overrides, apply_overrides, parse_overrides
+from .overrides import Overrides, apply_overrides, parse_overrides, with_own
 from .platform import presets
-from .reading import read_toml
+from .reading import count_keys, read_toml
 from .scenario import Scenario
 from .table import Finite, Table, whole
 
-MAX_RUNS = 100_000  # of one file; a grid of a few more keys than meant has millions
+MAX_RUNS = 10_000  # of one file; a grid of a few more keys than meant has millions, and all are checked before the first flies
+MAX_KEYS_CHECKED = 500_000  # keys of the file times runs: up to 2 us and 130 bytes each
 MAX_KEYS = 16  # of one sweep; each is a stream of random numbers as long as the draws
 MAX_MISTAKES = 50  # of one sweep, where a single wrong value may spoil thousands of runs ...
 MAX_SPOILT = 500  # ... and that many runs are looked at for other mistakes
 _LONGEST_PATTERN = 200  # characters; names are shorter
 
 _SWEEP = "sweep"
+_LISTS = ("input", "signal")  # of a vehicle; all else in a file is small
 _COUNTS = ("draws", "seed")
 _NAMES: dict[Key, Callable[[], Collection[str]]] = {
     ("vehicle", "script"): own_scripts,
@@ -105,7 +106,7 @@ def load_variants(path: Path, overrides: Sequence[str] = (), *, trust_models: bo
     table = data.pop(_SWEEP, None)
     if table is None:
         return [Variant(resolve(data, others, path, trust_models=trust_models), {})]
-    points = _points(table, others, FileNamer(str(path), of_sweep))
+    points = _points(table, others, count_keys(data), FileNamer(str(path), of_sweep))
     return _resolved(data, others, points, path, trust_models)
 
 
@@ -114,11 +115,14 @@ def _resolved(
 ) -> list[Variant]:
     variants, spoilt = [], 0
     found: dict[Mistake, None] = {}  # an ordered set
+    platforms = Platforms()
     for point in points:
         swept = {dotted(key): value for key, value in point.items()}
         try:
-            scenario = resolve(deepcopy(data), {**others, **point}, path, trust_models=trust_models)
+            settings = {**others, **point}
+            scenario = resolve(with_own(data, settings), settings, path, trust_models=trust_models, platforms=platforms)
             variants.append(Variant(scenario, swept))
+            _settle(data, scenario, settings)
         except ScenarioError as error:
             found |= dict.fromkeys(_of_sweep(mistake, swept, path) for mistake in error.mistakes)
             spoilt += 1
@@ -129,6 +133,15 @@ def _resolved(
     return variants
 
 
+def _settle(data: dict[str, Any], scenario: Scenario, settings: Overrides) -> None:
+    """Put in place of long lists what has been made of them, when no run sets anything there: checked once, and kept once."""
+    for name in _LISTS:
+        checked = getattr(scenario.file.vehicle, name)
+        set_anew = any(key[:2] in (("vehicle",), ("vehicle", name)) for key in settings)
+        if checked and not set_anew:
+            data["vehicle"][name] = checked
+
+
 def _of_sweep(mistake: Mistake, swept: Collection[str], path: Path) -> Mistake:
     """A mistake in a value that the sweep set, named as such."""
     mine = any(f"{mistake.key}.".startswith(f"{key}.") for key in swept)
@@ -137,8 +150,8 @@ def _of_sweep(mistake: Mistake, swept: Collection[str], path: Path) -> Mistake:
     return Mistake(str(path), f"{_SWEEP}.{mistake.key}", mistake.value, mistake.allowed)
 
 
-def _points(table: Any, others: Overrides, name_file: FileNamer) -> Iterator[Overrides]:
-    """What every run sets."""
+def _points(table: Any, others: Overrides, keys: int, name_file: FileNamer) -> Iterator[Overrides]:
+    """What every run sets, in a file of so many keys."""
     if not isinstance(table, dict):
         raise ScenarioError([Mistake(name_file((_SWEEP,)), _SWEEP, shown(table), "allowed: a table")])
     counts, mistakes = _counts(table, name_file)
@@ -153,7 +166,7 @@ def _points(table: Any, others: Overrides, name_file: FileNamer) -> Iterator[Ove
             ranges[key] = choice
         else:
             grid[key] = choice
-    mistakes += [Mistake(name_file((_SWEEP,)), _SWEEP, "", wrong) for wrong in _disagreement(grid, ranges, counts)]
+    mistakes += [Mistake(name_file((_SWEEP,)), _SWEEP, "", wrong) for wrong in _disagreement(grid, ranges, counts, keys)]
     if mistakes:
         raise ScenarioError(mistakes[:MAX_MISTAKES] + more(len(mistakes) - MAX_MISTAKES, name_file((_SWEEP,))))
     grid = {key: values for key, values in grid.items() if key not in others}
@@ -203,7 +216,7 @@ def _range(value: dict[str, Any]) -> _Range | str:
     return bounds if bounds.low < bounds.high and not (bounds.log and bounds.low <= 0.0) else allowed
 
 
-def _disagreement(grid: Choices, ranges: dict[Key, _Range], counts: _Counts) -> list[str]:
+def _disagreement(grid: Choices, ranges: dict[Key, _Range], counts: _Counts, keys: int) -> list[str]:
     if not grid and not ranges:
         return ["nothing to sweep; " + _ALLOWED]
     if bool(ranges) != (counts.draws is not None):
@@ -211,7 +224,9 @@ def _disagreement(grid: Choices, ranges: dict[Key, _Range], counts: _Counts) -> 
     if len(grid) + len(ranges) > MAX_KEYS:
         return [f"{len(grid) + len(ranges)} keys, allowed: keys <= {MAX_KEYS}"]
     runs = prod(map(len, grid.values())) * (counts.draws or 1)
-    return [f"{runs} runs, allowed: runs <= {MAX_RUNS}"] if runs > MAX_RUNS else []
+    most = min(MAX_RUNS, MAX_KEYS_CHECKED // max(keys, 1))
+    of_size = f" of a file of {keys} keys" if most < MAX_RUNS else ""
+    return [f"{runs} runs{of_size}, allowed: runs <= {most}; several files may share the rest"] if runs > most else []
 
 
 def _combined(grid: Choices, ranges: dict[Key, _Range], counts: _Counts) -> Iterator[Overrides]:

@@ -87,7 +87,7 @@ def script_beside(name: str, folder: Path) -> Path | None:
     try:
         path = (folder / name).resolve()
         return path if path.is_file() and path.is_relative_to(folder.resolve()) else None
-    except (OSError, ValueError):  # ValueError: a NUL in the name
+    except (OSError, ValueError, RuntimeError):  # ValueError: a NUL in the name; RuntimeError: links in a circle
         return None
 
 
@@ -149,7 +149,7 @@ class VehicleTable(Table):
     """`[vehicle]`: a source and its own keys, which `vehicle_rules` checks: exactly one of `script` and `aircraft`, ...
 
     host, port: where packets of a `flightgear` source come in; rate_hz: how many a second, nominally.
-    log: the log (MCAP) that a `recording` plays, from the scenario's folder.
+    log: the log (MCAP) that a `recording` plays, from the scenario's folder; anywhere, for it is data, as a platform file is.
     """
 
     source: Annotated[str, BeforeValidator(_known_source)] = _JSBSIM

@@ -48,8 +48,11 @@ def copy_script(script: Path, folder: Path) -> tuple[ET.Element, Path]:
 def beside(script: Path, initialize: str) -> Path | None:
     """The file of initial conditions in the script's own folder, links resolved; None when it is not there."""
     folder = script.parent.resolve()
-    path = (folder / f"{initialize.removesuffix('.xml')}.xml").resolve()
-    return path if path.is_file() and path.parent == folder and path != script.resolve() else None
+    try:
+        path = (folder / f"{initialize.removesuffix('.xml')}.xml").resolve()
+        return path if path.is_file() and path.parent == folder and path != script.resolve() else None
+    except (OSError, RuntimeError):  # a name that is too long, links in a circle
+        return None
 
 
 def read_users(path: Path) -> bytes:

@@ -12,7 +12,8 @@ from types import TracebackType
 from ..errors import AtlasError, InputError
 from ..recording import Ring, RingReader
 from ..scenario import Platform
-from .server import HOST, check_viser
+from .gate import HOST
+from .server import check_viser
 
 _REFRESH = 0.04  # s
 _NICENESS = 10  # the loop comes first

@@ -6,17 +6,13 @@ The only place that starts viser.
 from contextlib import redirect_stdout
 from importlib.util import find_spec
 from io import StringIO
-from typing import TYPE_CHECKING, Any
-from urllib.parse import urlsplit
+from typing import TYPE_CHECKING
 
 from ..errors import InputError
+from .gate import HOST, gated, silence
 
 if TYPE_CHECKING:
     from viser import ViserServer
-
-HOST = "127.0.0.1"
-_OURS = frozenset((HOST, "localhost", "::1"))
-_POLICY_VIOLATION = 1008  # RFC 6455, section 7.4.1
 
 
 def check_viser(extra: str) -> None:
@@ -33,12 +29,13 @@ def open_server(port: int, title: str | None = None) -> "ViserServer":
     """Serve an empty page at `port`, 0 for any free one. Raises InputError when the port is in use."""
     from viser import ViserServer
 
-    with redirect_stdout(StringIO()):  # a banner
+    with redirect_stdout(StringIO()), gated():  # a banner
         server = ViserServer(host=HOST, port=port, label=title, verbose=False)
     if port not in (0, server.get_port()):  # viser takes the next one that is free
         close_server(server)
         raise InputError(f"port {port}: in use; choose another one, or 0 for any that is free")
-    _refuse_other_hosts(server)
+    silence(server._websock_server._background_event_loop)
+    _close_tunnel(server)
     server.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=False)
     return server
 
@@ -54,21 +51,10 @@ def url_of(server: "ViserServer") -> str:
     return f"http://{HOST}:{server.get_port()}"
 
 
-def _refuse_other_hosts(server: "ViserServer") -> None:
-    """No page of another host may press our buttons, nor anybody ask for viser's public tunnel.
-
-    Browsers let any page of the web connect to a WebSocket of the loopback, but tell where the page is from.
-    """
-    sockets: Any = server._websock_server
-
-    async def check_origin(client: Any) -> None:
-        connection = sockets._live_connections[client.client_id]
-        origin = connection.request.headers.get("Origin")
-        if origin is not None and urlsplit(origin).hostname not in _OURS:
-            await connection.close(_POLICY_VIOLATION, "not a page of this machine")
+def _close_tunnel(server: "ViserServer") -> None:
+    """Nobody may ask for viser's public address."""
 
     def refuse(verbose: bool = True) -> None:  # noqa: ARG001 - as viser calls it
         return None
 
-    sockets._client_connect_cb.insert(0, check_origin)
     server.request_share_url = refuse  # type: ignore[method-assign]

@@ -5,12 +5,22 @@ from pathlib import Path
 import pytest
 
 from atlas_cueing.errors import Mistake, ScenarioError
-from atlas_cueing.scenario import load_scenario, load_variants, sweep
+from atlas_cueing.scenario import load_scenario, load_variants, presets, reading, sweep
 from atlas_cueing.scenario.mistakes import MOST_SHOWN, shown
 from atlas_cueing.scenario.reading import LARGEST_FILE, LONGEST_KEY, MOST_KEYS, parse_toml
+from atlas_cueing.scenario.sweep import MAX_RUNS
 
 from .texts import SCRIPT
 
+FLOWN = """
+name = "s"
+duration_s = 1
+[platform]
+preset = "atlas-2.9m"
+[vehicle]
+aircraft = "c172x"
+initial = { altitude_m = 1000, airspeed_m_s = 50 }
+"""
 AIRCRAFT = SCRIPT.replace('script = "c1722"', 'aircraft = "f16"\ninput = [{}]')
 
 
@@ -78,9 +88,12 @@ def test_a_list_of_topics_without_end(file: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "allowed"),
     [
-        ("".join(f"cueing.k{i} = [1, 2, 3, 4, 5, 6, 7, 8]\n" for i in range(10)), "1073741824 runs, allowed: runs <= 100000"),
-        ("draws = 1000000000\nduration_s = { low = 1, high = 2 }\n", "allowed: a whole number, 1 <= value <= 100000"),
-        ("draws = 100000\n" + "".join(f"k{i} = {{ low = 1, high = 2 }}\n" for i in range(17)), "17 keys, allowed: keys <= 16"),
+        (
+            "".join(f"cueing.k{i} = [1, 2, 3, 4, 5, 6, 7, 8]\n" for i in range(10)),
+            "1073741824 runs, allowed: runs <= 10000; several files may share the rest",
+        ),
+        ("draws = 1000000000\nduration_s = { low = 1, high = 2 }\n", "allowed: a whole number, 1 <= value <= 10000"),
+        ("draws = 10000\n" + "".join(f"k{i} = {{ low = 1, high = 2 }}\n" for i in range(17)), "17 keys, allowed: keys <= 16"),
         (f'vehicle.script = "{"*a" * 100_000}"\n', "a pattern is too long, allowed: length <= 200"),
     ],
     ids=["grid", "draws", "keys", "pattern"],
@@ -102,9 +115,92 @@ def test_a_sweep_in_which_every_run_is_wrong_is_given_up(file: Path, monkeypatch
         return resolve(*arguments, **options)  # type: ignore[arg-type]
 
     monkeypatch.setattr(sweep, "resolve", counted)
-    (found,) = mistakes(file, SCRIPT + "[sweep]\nduration_s = [" + "-1," * 50_000 + "]\n", load_variants)
+    (found,) = mistakes(file, SCRIPT + "[sweep]\nduration_s = [" + "-1," * MAX_RUNS + "]\n", load_variants)
     assert "duration_s = -1" in str(found)
     assert len(looked_at) == sweep.MAX_SPOILT
+
+
+def test_runs_of_a_long_file_are_fewer(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every run is checked before the first one flies, and takes as long as the file has keys."""
+    events = "".join(f'[[vehicle.input]]\ntime_s = {i}\nproperty = "fcs/rudder-cmd-norm"\nvalue = 0\n' for i in range(200))
+    (found,) = mistakes(file, f"{FLOWN}{events}[sweep]\nduration_s = [{'1, ' * 900}]", load_variants)
+    assert found.allowed == "900 runs of a file of 610 keys, allowed: runs <= 819; several files may share the rest"
+    file.write_text(f"{FLOWN}{events}[sweep]\nduration_s = [{'1, ' * 819}]")
+    monkeypatch.setattr(sweep, "resolve", lambda *_, **__: (_ for _ in ()).throw(LookedAtError))
+    with pytest.raises(LookedAtError):
+        load_variants(file)
+
+
+def test_a_file_with_nothing_but_a_sweep(file: Path) -> None:
+    found = mistakes(file, "[sweep]\nduration_s = [1, 2]", load_variants)
+    assert [(mistake.key, mistake.allowed) for mistake in found][:1] == [("name", "missing")]
+
+
+class LookedAtError(Exception):
+    """A run was looked at."""
+
+
+def test_a_platform_file_is_read_once_for_all_runs(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A wrong one, too: hundreds of times 256 kB would take a minute."""
+    opened, read = [], reading.read_toml
+
+    def counted(path: Path) -> dict[str, object]:
+        opened.append(path.name)
+        return read(path)
+
+    monkeypatch.setattr(reading, "read_toml", counted)
+    file.write_text(
+        SCRIPT.replace('preset = "atlas-2.9m"', 'file = "p.toml"') + "[sweep]\nplatform.sphere.radius_m = [1, 2, 3]"
+    )
+    (file.parent / "p.toml").write_text("[")
+    with pytest.raises(ScenarioError, match=r"p\.toml: TOML: not valid"):
+        load_variants(file)
+    assert opened == ["p.toml"]
+    (file.parent / "p.toml").write_bytes(presets()["atlas-1.5m"].read_bytes())
+    assert len(load_variants(file)) == 3
+    assert opened == ["p.toml"] * 2
+
+
+def test_runs_share_what_the_sweep_leaves_alone(file: Path) -> None:
+    """Ten thousand runs of a file with a hundred inputs have to fit into 200 MB."""
+    events = '[[vehicle.input]]\ntime_s = 1\nproperty = "fcs/rudder-cmd-norm"\nvalue = 0\n' * 3
+    file.write_text(f"{FLOWN}{events}[sweep]\nduration_s = [1, 2, 3]")
+    first, *others = [variant.scenario for variant in load_variants(file)]
+    for other in others:
+        assert other.platform is first.platform
+        assert all(mine is yours for mine, yours in zip(first.file.vehicle.input, other.file.vehicle.input, strict=True))
+
+
+@pytest.mark.parametrize(
+    "swept",
+    ["vehicle.input.1.value = [1, 2, 3]", "vehicle.script = ['c1722', 'ball']", "vehicle.initial.pitch_deg = [1, 2]"],
+)
+def test_sharing_changes_nothing(file: Path, swept: str) -> None:
+    """Each run is what the file gives with that run's settings alone."""
+    events = '[[vehicle.input]]\ntime_s = 1\nproperty = "fcs/rudder-cmd-norm"\nvalue = 0\n' * 3
+    file.write_text(f"{FLOWN}{events}[sweep]\n{swept}\nplatform.rider.head_m = [[0, 0, 0], [0, 0, 0.5]]")
+    runs = load_variants(file, ["cueing.method=force"])
+    assert len(runs) >= 4
+    file.write_text(FLOWN + events)
+    for run in runs:
+        settings = [f"{key}={value}" for key, value in run.settings.items()]
+        assert run.scenario == load_scenario(file, ["cueing.method=force", *settings])
+
+
+def test_what_one_run_leaves_out_the_next_one_has(file: Path) -> None:
+    """A file's own method has a parameter that the first run's method does not know."""
+    own = FLOWN + '[cueing]\nmethod = "blend"\nalign_time_s = 7.0\n'
+    file.write_text(own + '[sweep]\ncueing.method = ["attitude", "blend"]')
+    first, second = [variant.scenario.file.cueing for variant in load_variants(file)]
+    assert (first.method, second.method) == ("attitude", "blend")
+    assert second.model_dump()["align_time_s"] == 7.0
+
+
+def test_a_description_that_would_fill_every_log(file: Path) -> None:
+    (found,) = mistakes(file, f'description = "{"x" * 2001}"\n{SCRIPT}')
+    assert found.allowed == "allowed: a text of at most 2000 characters"
+    file.write_text(f'description = "{"x" * 2000}"\n{SCRIPT}')
+    assert len(load_scenario(file).file.description) == 2000
 
 
 def test_every_wrong_choice_of_a_sweep_is_not_told(file: Path) -> None:

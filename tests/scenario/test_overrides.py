@@ -1,9 +1,11 @@
+from copy import deepcopy
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from atlas_cueing.errors import ScenarioError
-from atlas_cueing.scenario.overrides import apply_overrides, parse_overrides
+from atlas_cueing.scenario.overrides import apply_overrides, parse_overrides, with_own
 
 
 @pytest.mark.parametrize(
@@ -107,3 +109,37 @@ def test_any_text_is_applied_or_refused(texts: list[str]) -> None:
         assert str(refusal).count("--set") >= 1  # noqa: PT017 - either outcome is right
     for mistake in apply_overrides(data, settings):
         assert mistake.file == "--set"
+
+
+@pytest.mark.parametrize(
+    "texts",
+    [
+        ["a.b.c=2", "a.d=3"],
+        ["list.1.x=5", "list.0=7"],
+        ["vehicle.script=x", "platform.file=y"],
+        ["new.deep.key=1"],
+        ["a.b.c.d=1", "list.9.x=1", "list.x.y=1", "1.2=3"],
+        ["list.1.xs.0=5", "a={}"],
+    ],
+)
+def test_a_table_of_its_own_can_be_set_while_the_first_stays(texts: list[str]) -> None:
+    data = {
+        "a": {"b": {"c": 1}, "d": 2},
+        "list": [{"x": 1}, {"x": 2, "xs": [1, 2]}],
+        "vehicle": {"aircraft": "f16", "initial": {}},
+        "platform": {"preset": "p"},
+    }
+    before, expected = deepcopy(data), deepcopy(data)
+    overrides = parse_overrides(texts)
+    own = with_own(data, overrides)
+    assert own == data
+    assert apply_overrides(own, overrides) == apply_overrides(expected, overrides)
+    assert (own, data) == (expected, before)
+
+
+def test_what_is_not_set_is_shared() -> None:
+    data = {"a": {"b": [1], "c": [2]}, "d": [3]}
+    own = with_own(data, parse_overrides(["a.b.0=5"]))
+    assert own["d"] is data["d"]
+    assert own["a"]["c"] is data["a"]["c"]
+    assert own["a"]["b"] is not data["a"]["b"]

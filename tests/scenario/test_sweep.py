@@ -124,7 +124,7 @@ def test_set_takes_a_key_out_of_the_sweep(tmp_path: Path) -> None:
         ('name = "*"', "s.toml: sweep.name = '*': allowed: a list of values"),
         (
             "draws = 0\nduration_s = { low = 1, high = 2 }",
-            "s.toml: sweep.draws = 0: allowed: a whole number, 1 <= value <= 100000",
+            "s.toml: sweep.draws = 0: allowed: a whole number, 1 <= value <= 10000",
         ),
         ("seed = 0.5\nduration_s = [1, 2]", "s.toml: sweep.seed = 0.5: allowed: a whole number"),
         ("draws = 3\nduration_s = [1, 2]", "s.toml: sweep: ranges and draws go together"),
@@ -134,7 +134,7 @@ def test_set_takes_a_key_out_of_the_sweep(tmp_path: Path) -> None:
         ("draws = 3\nduration_s = { low = 0 }", "s.toml: sweep.duration_s: allowed: { low = a number"),
         ("draws = 3\nduration_s = { low = 0, high = inf }", "s.toml: sweep.duration_s: allowed: { low = a number"),
         ("draws = 3\nduration_s = { low = 0, high = 1, step = 2 }", "s.toml: sweep.duration_s: allowed: { low = a number"),
-        ("draws = 100000\nduration_s = { low = 1, high = 2 }\nname = ['a', 'b']", "s.toml: sweep: 200000 runs, allowed: "),
+        ("draws = 10000\nduration_s = { low = 1, high = 2 }\nname = ['a', 'b']", "s.toml: sweep: 20000 runs, allowed: "),
         ("duration_s = [0.1, -1]", "s.toml: sweep.duration_s = -1: allowed: a number, 0 < value <= 86400"),
         ("cueing.rotation_gain = [[1, 1, -1]]", "s.toml: sweep.cueing.rotation_gain.2 = -1: allowed: a number"),
         (

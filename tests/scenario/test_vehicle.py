@@ -82,9 +82,10 @@ def test_a_script_outside_the_folder_is_refused(tmp_path: Path, refused: Refused
     inside = tmp_path / "in"
     inside.mkdir()
     (inside / "link.xml").symlink_to(outside)
+    (inside / "round.xml").symlink_to(inside / "round.xml")
     (inside / "good.xml").write_text(INITIAL)
     assert script_beside("good.xml", inside) == inside / "good.xml"
-    for name in ("../outside.xml", str(outside), "link.xml", "", ".", "missing.xml", "a\0b", "x" * 5000):
+    for name in ("../outside.xml", str(outside), "link.xml", "round.xml", "", ".", "missing.xml", "a\0b", "x" * 5000):
         assert script_beside(name, inside) is None
     assert "in the scenario's folder" in refused(SCRIPT.replace("c1722", "../x.xml"))[0]
 

@@ -86,6 +86,13 @@ def test_a_link_that_leads_elsewhere_is_not_followed(tmp_path: Path) -> None:
     assert tree.find("use").get("initialize") == "link", "left to the aircraft's own folder, where there is none"
 
 
+@pytest.mark.parametrize("name", ["round", "x" * 300])
+def test_a_link_that_leads_nowhere_is_none(tmp_path: Path, name: str) -> None:
+    (tmp_path / "round.xml").symlink_to(tmp_path / "round.xml")
+    tree, _ = copy_script(write_script(tmp_path / "s.xml", initialize=name), tmp_path / "a")
+    assert tree.find("use").get("initialize") == name, "left to the aircraft's own folder"
+
+
 @pytest.mark.parametrize("where", ["script", "initial"])
 def test_references_to_files_are_refused(where: str, tmp_path: Path) -> None:
     inside = '<event><set name="x" file="/etc/passwd"/></event>'

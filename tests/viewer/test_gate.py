@@ -1,0 +1,246 @@
+"""Hostile clients of a view: none gets in that should not, none gets more than its share, and the page stays."""
+
+import gc
+import http.client
+import socket
+import struct
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from typing import Any
+
+import msgspec
+import pytest
+import viser
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Subprotocol
+
+from atlas_cueing.viewer import gate
+from atlas_cueing.viewer.gate import LARGEST_MESSAGE, MOST_CLIENTS, MOST_CONNECTIONS, admits
+
+SPEAKS = f"viser-v{viser.__version__}"
+HANDSHAKE = (
+    "GET / HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+    f"Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Protocol: {SPEAKS}\r\n"
+)
+OUTSIDE = "/../../../../../../../../etc/passwd"
+
+
+def page(server: Any) -> int:
+    """Status of the page, which everybody may ask for."""
+    client = http.client.HTTPConnection("127.0.0.1", server.get_port(), timeout=20.0)
+    try:
+        client.request("GET", "/")
+        return client.getresponse().status
+    finally:
+        client.close()
+
+
+def joined(server: Any) -> ClientConnection:
+    address = f"ws://127.0.0.1:{server.get_port()}"
+    return connect(address, subprotocols=[Subprotocol(SPEAKS)], proxy=None, open_timeout=20.0, max_size=None)
+
+
+def read_on(client: ClientConnection) -> None:
+    """Until the server hangs up."""
+    while True:
+        client.recv(timeout=20.0)
+
+
+def said(server: Any, request: bytes) -> bytes:
+    """What comes back until the server hangs up."""
+    with socket.create_connection(("127.0.0.1", server.get_port()), timeout=20.0) as client:
+        client.sendall(request)
+        answer = b""
+        while piece := client.recv(65536):
+            answer += piece
+        return answer
+
+
+@contextmanager
+def many(server: Any, count: int, begin: Callable[[Any], Any]) -> Iterator[list[Any]]:
+    with ExitStack() as stack:
+        yield [stack.enter_context(begin(server)) for _ in range(count)]
+
+
+def eventually(holds: Callable[[], bool]) -> bool:
+    """Whether it holds within half a minute: what a server notices, it notices in its own time."""
+    end = time.monotonic() + 30.0
+    while not holds() and time.monotonic() < end:
+        time.sleep(0.02)
+    return holds()
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        *(
+            OUTSIDE,
+            OUTSIDE.replace("..", "%2e%2e"),
+            OUTSIDE.replace("/..", "%2f.."),
+            OUTSIDE.replace("/", "\\"),
+            "//etc/passwd",
+        ),
+        *(f"/assets/..{OUTSIDE}", "http://x/etc/passwd", "/%00", "/" + "a" * 5000),
+    ],
+    ids=lambda path: path[:30],
+)
+def test_no_file_but_the_page(server: Any, path: str) -> None:
+    answer = said(server, f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n".encode())
+    assert answer.startswith(b"HTTP/1.1 404")
+    assert b"root:" not in answer
+
+
+@pytest.mark.parametrize("host", ["evil.example", "127.0.0.1.evil.example:8080", "[", "user@evil.example"])
+def test_under_another_name_nothing_is_served(server: Any, host: str) -> None:
+    """A page whose name was made to point here is of the same origin as what it asks for."""
+    assert said(server, f"GET / HTTP/1.1\r\nHost: {host}\r\n\r\n".encode()).startswith(b"HTTP/1.1 403")
+    assert said(server, (HANDSHAKE.format(host=host) + "\r\n").encode()).startswith(b"HTTP/1.1 403")
+
+
+def moved(slider: Any, to: object) -> bytes:
+    """What a page sends when somebody moves a slider."""
+    return update(slider, {"value": to})
+
+
+def update(slider: Any, updates: object) -> bytes:
+    return msgspec.msgpack.encode({"type": "GuiUpdateMessage", "uuid": slider._impl.uuid, "updates": updates})
+
+
+def test_what_a_page_of_another_host_sends_is_not_read(server: Any) -> None:
+    """Not even what comes right behind its handshake, before it can be shut out."""
+    theirs, ours = (server.gui.add_slider(name, 0.0, 1.0, 0.1, 0.5) for name in ("theirs", "ours"))
+    move = moved(theirs, 0.9)
+    frame = bytes([0x82, 0x80 | 126]) + struct.pack(">H", len(move)) + bytes(4) + move
+    evil = HANDSHAKE.format(host="127.0.0.1") + "Origin: http://evil.example\r\n\r\n"
+    assert said(server, evil.encode() + 3 * frame).startswith(b"HTTP/1.1 403")
+    with joined(server) as page_of_ours:
+        page_of_ours.send(moved(ours, 0.9))
+        assert eventually(lambda: bool(ours.value == 0.9))
+    assert theirs.value == 0.5
+
+
+def told(caplog: pytest.LogCaptureFixture) -> list[str]:
+    """What would have come to stderr: anything in logs that are not ours, which the command keeps to itself."""
+    gc.collect()  # asyncio tells of a task that failed when it is dropped
+    return [record.name for record in caplog.records if not record.name.startswith("atlas_cueing")]
+
+
+@pytest.mark.parametrize(
+    "nonsense",
+    [b"", b"\xff" * 100, "text", msgspec.msgpack.encode([1]), msgspec.msgpack.encode({"type": "x"}), b"\x91" * 10_000],
+    ids=["empty", "bytes", "text", "list", "unknown", "deep"],
+)
+def test_nonsense_ends_its_connection_and_nothing_else(
+    server: Any, caplog: pytest.LogCaptureFixture, capfd: pytest.CaptureFixture[str], nonsense: bytes
+) -> None:
+    with joined(server) as ours:
+        ours.send(nonsense)
+        with pytest.raises(ConnectionClosed):
+            read_on(ours)
+    assert page(server) == 200
+    assert capfd.readouterr() == ("", "")
+    assert not told(caplog)
+
+
+@pytest.mark.parametrize("updates", [{"nope": 1}, {"value": "x"}, {"value": None}])
+def test_nonsense_for_a_slider_is_dropped_in_silence(
+    server: Any, caplog: pytest.LogCaptureFixture, capfd: pytest.CaptureFixture[str], updates: object
+) -> None:
+    slider, other = (server.gui.add_slider(name, 0.0, 1.0, 0.1, 0.5) for name in ("one", "other"))
+    with joined(server) as ours:
+        ours.send(update(slider, updates))
+        ours.send(moved(other, 0.9))
+        assert eventually(lambda: bool(other.value == 0.9))
+    assert slider.value == 0.5
+    assert page(server) == 200
+    assert capfd.readouterr() == ("", "")
+    assert not told(caplog)
+
+
+def test_a_message_larger_than_any_is_not_kept(server: Any) -> None:
+    with joined(server) as ours:
+        ours.send(bytes(LARGEST_MESSAGE + 1))
+        with pytest.raises(ConnectionClosed) as closed:
+            read_on(ours)
+    assert closed.value.rcvd is not None
+    assert closed.value.rcvd.code == 1009
+
+
+def test_there_are_not_ever_more_clients(server: Any) -> None:
+    with many(server, MOST_CLIENTS, joined) as clients:
+        with pytest.raises(InvalidStatus, match="HTTP 503"):
+            joined(server)
+        assert page(server) == 200, "which tells why"
+        clients[0].close()
+        assert eventually(lambda: _let_in(server))
+
+
+def _let_in(server: Any) -> bool:
+    try:
+        joined(server).close()
+    except InvalidStatus:
+        return False
+    return True
+
+
+def half_a_request(server: Any) -> socket.socket:
+    client = socket.create_connection(("127.0.0.1", server.get_port()), timeout=20.0)
+    client.sendall(b"GET / HT")
+    return client
+
+
+def test_connections_that_never_ask_are_few_and_do_not_stay(server: Any) -> None:
+    with many(server, MOST_CONNECTIONS + 20, half_a_request) as clients:
+        assert eventually(lambda: sum(map(_hung_up, clients)) >= 20)
+        assert page_or_none(server) is None, "all places are taken ..."
+        assert eventually(lambda: page_or_none(server) == 200), "... for some seconds"
+        assert eventually(lambda: all(map(_hung_up, clients)))
+
+
+def _hung_up(client: socket.socket) -> bool:
+    client.setblocking(False)
+    try:
+        return client.recv(1, socket.MSG_PEEK) == b""
+    except BlockingIOError:
+        return False
+    except OSError:
+        return True
+
+
+def page_or_none(server: Any) -> int | None:
+    try:
+        return page(server)
+    except (OSError, http.client.HTTPException):
+        return None
+
+
+@pytest.mark.parametrize(
+    ("hosts", "origins", "right"),
+    [
+        (["127.0.0.1:8080"], [], True),
+        (["localhost"], ["http://localhost:1"], True),
+        (["[::1]:8080"], ["https://[::1]"], True),
+        ([], [], True),
+        (["LOCALHOST"], ["HTTP://LOCALHOST"], True),
+        (["localhost", "evil.example"], [], False),
+        (["localhost"], ["http://localhost", "http://evil.example"], False),
+        (["localhost"], [""], False),
+        ([""], [], False),
+        (["localhost@evil.example"], [], False),
+        (["localhost"], ["http://localhost.evil.example"], False),
+        (["localhost"], ["http://[localhost"], False),
+    ],
+)
+def test_names_of_this_machine(hosts: list[str], origins: list[str], right: bool) -> None:
+    assert admits(hosts, origins) == right
+
+
+def test_viser_has_its_own_server_again() -> None:
+    from websockets.asyncio import server as websockets_server
+
+    before = websockets_server.serve
+    with gate.gated():
+        assert websockets_server.serve is not before
+    assert websockets_server.serve is before
