@@ -1,6 +1,6 @@
 """What a build of the package computes, as hashes: python compiled_probe.py FOLDER, run with the build on the path.
 
-Whole flights (the bytes of their logs) and smoothing under hostile cues (every number it gave).
+Whole flights (the bytes of their logs), smoothing under hostile cues and the guard under spoilt commands (every number).
 """
 
 import hashlib
@@ -8,12 +8,14 @@ import json
 import random
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from math import inf, nan
 from pathlib import Path
 
 from atlas_cueing import rotation
 from atlas_cueing.batch import run_scenario
 from atlas_cueing.errors import PlanningError
+from atlas_cueing.live.guard import Command, Guard
 from atlas_cueing.scenario import load_platform, load_scenario
 from atlas_cueing.signals import Cue
 from atlas_cueing.smoothing import Smoothing
@@ -39,6 +41,7 @@ FLIGHTS = [("f16", 4.0, AIRCRAFT, method) for method in ("attitude", "blend", "f
 FLIGHTS += [("doublet", 25.0, SCRIPT, "blend")]
 AWKWARD = (nan, inf, -inf, 1e300, -1e200, 1e-300, 0.0, -0.0, 1e6)
 TICKS = 20_000
+SPOILT = 15_000  # the tick whose command makes the guard stop
 
 
 def flown(folder: Path) -> Iterator[tuple[str, str]]:
@@ -65,25 +68,32 @@ def cues(randomly: random.Random) -> Iterator[Cue]:
         yield Cue(k / 120.0, (a, b, c, d) if k else rotation.IDENTITY, *triples)
 
 
-def smoothed() -> str:
-    platform = load_platform("atlas-2.9m")
-    wheels = Wheels(platform.geometry())
+def smoothed() -> tuple[str, str]:
+    """Hashes of all motions with their wheels, and of all commands: what the guard let through, and then its stop."""
+    platform, dt = load_platform("atlas-2.9m"), 1.0 / 120.0
+    limits = platform.wheel_speed_limits(), platform.stage_motion_limits()
+    wheels, guard = Wheels(platform.geometry()), Guard(dt, *limits)
     smoothing = Smoothing(
-        dt=1.0 / 120.0,
+        dt=dt,
         wheels_from_sphere=wheels.wheels_from_sphere,
         sphere_from_wheels=wheels.sphere_from_wheels,
-        wheel_limits=platform.wheel_speed_limits(),
-        stage_limits=platform.stage_motion_limits(),
+        wheel_limits=limits[0],
+        stage_limits=limits[1],
     )
-    digest = hashlib.sha256()
-    for cue in cues(random.Random(8)):
+    motions, commands = hashlib.sha256(), hashlib.sha256()
+    for k, cue in enumerate(cues(random.Random(8))):
         try:
             motion = smoothing.step(cue)
         except PlanningError as error:
-            digest.update(str(error).encode())
-        else:
-            digest.update(repr((motion, wheels.speeds(motion))).encode())
-    return digest.hexdigest()
+            motions.update(str(error).encode())
+            continue
+        speeds = wheels.speeds(motion)
+        motions.update(repr((motion, speeds)).encode())
+        command = Command(motion.time, speeds.speed, speeds.acceleration, motion.p_WS_W, motion.v_WS_W, motion.a_WS_W)
+        if k == SPOILT:
+            command = replace(command, v_WS_W=(nan, 0.0, 0.0))
+        commands.update(repr((guard.check(command), guard.reason)).encode())
+    return motions.hexdigest(), commands.hexdigest()
 
 
 if __name__ == "__main__":

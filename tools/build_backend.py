@@ -50,6 +50,8 @@ EVERY_TICK = (
     "cueing/*.py",
     "smoothing/*.py",
     "wheels/drive.py",
+    *(f"live/{name}.py" for name in ("conductor", "course", "following", "guard", "interpolation", "ride", "source")),
+    *(f"live/{name}.py" for name in ("supervisor", "vehicle_source")),
 )
 NOT = ("__init__.py", "horizon_problem.py")  # names only, and a solver in C already
 SETTING = "ATLAS_CUEING_COMPILE"

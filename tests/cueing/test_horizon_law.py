@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from cueing.test_horizon_problem import DURATIONS, FADE, LIMITS, OMEGA, STATES, controls
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from atlas_cueing.cueing.horizon_problem import HorizonProblem
+from cueing.test_horizon_problem import DURATIONS, FADE, LIMITS, OMEGA, STATES, controls
 
 PROBLEM = HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS)
 State = tuple[float, float, float, float]
