@@ -69,10 +69,21 @@ class Log:
         return self.tables[topic]
 
 
-def table_of(fields: tuple[str, ...], pieces: list[tuple[Array, Times]]) -> Table:
-    """A table from the pieces of its chunks, which are let go of."""
-    values = np.concatenate([values for values, _ in pieces]) if pieces else np.empty((0, len(fields)))
-    times = np.concatenate([times for _, times in pieces]) if pieces else np.empty(0, np.uint64)
-    pieces.clear()
-    values.flags.writeable = times.flags.writeable = False
-    return Table(fields, values, times)
+class Growing:
+    """A table that is not complete yet; its memory grows in place, where lists of pieces would need twice as much."""
+
+    def __init__(self, fields: tuple[str, ...]) -> None:
+        """A table of no messages yet."""
+        self._fields, self._values, self._times = fields, bytearray(), bytearray()
+
+    def add(self, values: Array, times: Times) -> None:
+        """Values (n, fields) and log times (n,) that follow."""
+        self._values += values.tobytes()
+        self._times += times.tobytes()
+
+    def table(self) -> Table:
+        """What was added, to be read only."""
+        values = np.frombuffer(self._values).reshape(-1, len(self._fields))
+        times = np.frombuffer(self._times, np.uint64)
+        values.flags.writeable = times.flags.writeable = False
+        return Table(self._fields, values, times)

@@ -11,7 +11,7 @@ from mcap.records import Attachment, Channel, Chunk, DataEnd, McapRecord, Metada
 from numpy.typing import NDArray
 
 from ..errors import LogError
-from .log import Log, Status, Table, table_of
+from .log import Growing, Log, Status
 from .message_starts import BOUNDARY, MESSAGE_HEAD, Starts, message_starts
 from .recorder import RUN_METADATA
 from .records import MessageOffsets, RecordReader, unpack
@@ -56,8 +56,8 @@ class _Content:
         self._schemas: dict[int, Schema] = {}
         self._channels: dict[int, Channel] = {}
         self._fields: dict[int, tuple[str, ...]] = {}  # of the channels with flat messages
-        self._pieces: dict[int, list[tuple[Array, Times]]] = {}
-        self._transforms: dict[int, list[tuple[Array, Times]]] = {}
+        self._tables: dict[int, Growing] = {}
+        self._transforms: dict[int, Growing] = {}
         self._status_class: dict[int, Any] = {}
         self._statuses: list[Status] = []
         self._metadata: dict[str, dict[str, str]] = {}
@@ -92,10 +92,8 @@ class _Content:
     def log(self, path: Path) -> Log:
         """All of it."""
         self._finish_chunk()
-        tables: dict[str, Table] = {}
-        for channel, fields in self._fields.items():
-            tables[self._channels[channel].topic] = table_of(fields, self._pieces[channel])
-        poses = [table_of(POSE, pieces) for pieces in self._transforms.values()]
+        tables = {self._channels[channel].topic: growing.table() for channel, growing in self._tables.items()}
+        poses = [growing.table() for growing in self._transforms.values()]
         transforms = poses[0] if poses else None
         return Log(path, tables, self._metadata[RUN_METADATA], self._attachments, tuple(self._statuses), transforms)
 
@@ -113,9 +111,9 @@ class _Content:
         if channel.topic == STATUS:
             self._status_class[channel.id] = message_class(schema.name, schema.data)
         elif channel.topic == TF:
-            self._transforms[channel.id] = []
+            self._transforms[channel.id] = Growing(POSE)
         elif (fields := flat_fields(schema.name, schema.data)) is not None:
-            self._fields[channel.id], self._pieces[channel.id] = fields, []
+            self._fields[channel.id], self._tables[channel.id] = fields, Growing(fields)
 
     def _keep_index(self, offsets: MessageOffsets) -> None:
         """Keep what the log says of the present chunk, unless it names more messages than fit in."""
@@ -135,9 +133,9 @@ class _Content:
         data = unpack(chunk)
         for channel, starts in message_starts(data, index).items():
             if channel in self._fields:
-                self._pieces[channel].append(self._flat(channel, data, starts))
+                self._tables[channel].add(*self._flat(channel, data, starts))
             if channel in self._transforms:
-                self._transforms[channel].append(self._poses(data, starts))
+                self._transforms[channel].add(*self._poses(data, starts))
             for start in starts.tolist() if channel in self._status_class else ():
                 end = start + RECORD_HEAD + BOUNDARY.unpack_from(data, start)[1]
                 message = self._status_class[channel].FromString(data[start + _HEAD : end])

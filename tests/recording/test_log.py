@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from atlas_cueing.errors import LogError
-from atlas_cueing.recording import Log, Table, read_log
-from atlas_cueing.recording.log import table_of
+from atlas_cueing.recording import Log, read_log
+from atlas_cueing.recording.log import Growing
 
 from .flights import record, tumble
 
@@ -59,12 +59,13 @@ def test_a_log_cannot_be_changed(log: Log) -> None:
         log.column("/motion", "time_s")[0] = 1.0
 
 
-def test_tables_of_pieces() -> None:
-    pieces = [(np.ones((2, 1)), np.array([5, 6], np.uint64)), (np.zeros((1, 1)), np.array([7], np.uint64))]
-    table = table_of(("a",), pieces)
-    assert table.values.ravel().tolist() == [1.0, 1.0, 0.0]
+def test_a_table_grows() -> None:
+    growing = Growing(("a", "b"))
+    assert growing.table().values.shape == (0, 2)
+    growing.add(np.array([[1.0, 2.0], [3.0, 4.0]]), np.array([5, 6], np.uint64))
+    growing.add(np.array([[7.0, 8.0, 9.0]])[:, ::2], np.array([7], np.uint64))
+    table = growing.table()
+    assert (table.fields, table.values.tolist()) == (("a", "b"), [[1.0, 2.0], [3.0, 4.0], [7.0, 9.0]])
     assert table.log_times.tolist() == [5, 6, 7]
-    assert pieces == []
-    empty = table_of(("a", "b"), [])
-    assert isinstance(empty, Table)
-    assert empty.values.shape == (0, 2)
+    assert not table.values.flags.writeable
+    assert not table.log_times.flags.writeable
