@@ -2,14 +2,17 @@
 
 from collections.abc import Sequence
 from html import escape
-from math import ceil, isnan
+from math import ceil, inf, isnan
 from statistics import fmean
 from typing import Any
 
+from .heading import Heading
 from .table import Row
 
-_WIDTH, _HEIGHT, _LEFT, _TOP = 640.0, 400.0, 190.0, 34.0  # px; of the plot, and the room for its axes
+_WIDTH, _HEIGHT, _LEFT, _TOP = 640.0, 400.0, 190.0, 34.0  # px; of the plot at most, and the room for its axes
+_ROW = 48.0  # px; height of a row of cells at most
 _CHARACTER, _LINE = 7.0, 16.0  # px; width of one in a label, height of a label
+_DARK = 0.55  # share of the colours up to which white can be read on them
 _GRID = 100  # values of a parameter up to which every value gets a row or column of its own
 # The ends and middle of matplotlib's viridis: readable in grey and without red and green.
 _COLOURS = ((68, 1, 84), (33, 145, 140), (253, 231, 37))
@@ -25,38 +28,44 @@ def picture(table: Sequence[Row], x: str, y: str, metric: str) -> str:
     points = [(row[x], row[y], row[metric]) for row in table if _known(row, x, y, metric)]
     if not points:
         return ""
-    values = [float(value) for _, _, value in points]
-    across, up = _Axis([a for a, _, _ in points], _WIDTH), _Axis([b for _, b, _ in points], _HEIGHT)
+    figure = Heading.of_metric(metric)
+    across, up = _Axis([a for a, _, _ in points], _WIDTH), _Axis([b for _, b, _ in points], _HEIGHT, _ROW)
     cells: dict[tuple[float, float], list[float]] = {}
     for a, b, value in points:
         cells.setdefault((across.place(a), up.place(b)), []).append(float(value))
-    least, most = min(values), max(values)
-    marks = [_mark(across, up, at, fmean(found), least, most) for at, found in cells.items()]
-    title = f"{metric}: {least:.4g} (dark) to {most:.4g} (light)"
-    texts = [_text(_LEFT, 16, title, "start"), _text(_LEFT + _WIDTH / 2, _TOP + _HEIGHT + 40, x), _text(6, 30, y, "start")]
-    texts += [_text(_LEFT + at, _TOP + _HEIGHT + 18, label) for at, label in across.labels()]
-    texts += [_text(_LEFT - 6, _TOP + _HEIGHT - at + 4, label, "end") for at, label in up.labels(_LINE)]
-    size = f'viewBox="0 0 {_LEFT + _WIDTH + 20:g} {_TOP + _HEIGHT + 50:g}" width="{_LEFT + _WIDTH + 20:g}"'
+    means = {at: fmean(found) for at, found in cells.items()}
+    least, most = min(means.values()), max(means.values())
+    share = {at: (mean - least) / (most - least) if most > least else 0.5 for at, mean in means.items()}
+    marks = [_mark(across, up, at, figure.text(mean), share[at]) for at, mean in means.items()]
+    title = f"{figure.line}: {figure.text(least)} (dark) to {figure.text(most)} (light)"
+    bottom = _TOP + up.length
+    heads = [Heading.of_key(key).line for key in (x, y)]
+    texts = [_text(_LEFT, 18, title, "start", metric), _text(_LEFT + _WIDTH / 2, bottom + 40, heads[0], tip=x)]
+    texts += [_text(_LEFT - 6, 30, heads[1], "end", y)]
+    texts += [_text(_LEFT + at, bottom + 18, label) for at, label in across.labels()]
+    texts += [_text(_LEFT - 6, bottom - at + 4, label, "end") for at, label in up.labels(_LINE)]
+    size = f'viewBox="0 0 {_LEFT + _WIDTH + 20:g} {bottom + 50:g}" width="{_LEFT + _WIDTH + 20:g}"'
     return f'<svg xmlns="http://www.w3.org/2000/svg" {size}>{"".join(marks + texts)}</svg>'
 
 
 class _Axis:
     """Where a value stands on an axis, px from its origin."""
 
-    def __init__(self, found: Sequence[Any], length: float) -> None:
+    def __init__(self, found: Sequence[Any], most: float, cell: float = inf) -> None:
+        """At most `most` px long, each value of a few at most `cell` px."""
         numbers = all(isinstance(value, int | float) and not isinstance(value, bool) for value in found)
         distinct = {repr(value): value for value in found}
         self._values = sorted(distinct.values()) if numbers else [distinct[text] for text in sorted(distinct)]
         self._order = {repr(value): i for i, value in enumerate(self._values)}
-        self._length = length
         self.discrete = not numbers or len(self._values) <= _GRID
-        self.cell = length / len(self._values) if self.discrete else 10.0
+        self.length = min(most, cell * len(self._values)) if self.discrete else most
+        self.cell = self.length / len(self._values) if self.discrete else 10.0
 
     def place(self, value: Any) -> float:
         """Middle of the value's cell, or its place between the least and the largest."""
         if self.discrete:
             return (self._order[repr(value)] + 0.5) * self.cell
-        return self._length * float(value - self._values[0]) / float(self._values[-1] - self._values[0])
+        return self.length * float(value - self._values[0]) / float(self._values[-1] - self._values[0])
 
     def labels(self, room: float | None = None) -> list[tuple[float, str]]:
         """Places and texts, as many as have `room` px each; without it as many as their own width allows."""
@@ -64,7 +73,7 @@ class _Axis:
         pairs = list(zip(self._values, texts, strict=True))
         shown = pairs if self.discrete else [pairs[0], pairs[-1]]
         needed = len(shown) * (room or _CHARACTER * (2 + max(map(len, texts))))
-        return [(self.place(value), text) for value, text in shown[:: max(ceil(needed / self._length), 1)]]
+        return [(self.place(value), text) for value, text in shown[:: max(ceil(needed / self.length), 1)]]
 
 
 def _known(row: Row, x: str, y: str, metric: str) -> bool:
@@ -72,14 +81,16 @@ def _known(row: Row, x: str, y: str, metric: str) -> bool:
     return x in row and y in row and isinstance(value, int | float) and not isnan(value)
 
 
-def _mark(across: _Axis, up: _Axis, at: tuple[float, float], value: float, least: float, most: float) -> str:
-    colour = _colour((value - least) / (most - least) if most > least else 0.5)
-    x, y = _LEFT + at[0], _TOP + _HEIGHT - at[1]
-    tip = f"<title>{value:.6g}</title>"
+def _mark(across: _Axis, up: _Axis, at: tuple[float, float], value: str, share: float) -> str:
+    """A dot, or a cell with its value in it where that has room."""
+    colour, tip = _colour(share), f"<title>{escape(value)}</title>"
+    x, y = _LEFT + at[0], _TOP + up.length - at[1]
     if not (across.discrete and up.discrete):
         return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="5" fill="{colour}">{tip}</circle>'
     place = f'x="{x - across.cell / 2:.1f}" y="{y - up.cell / 2:.1f}" width="{across.cell:.1f}" height="{up.cell:.1f}"'
-    return f'<rect {place} fill="{colour}">{tip}</rect>'
+    room = up.cell >= _LINE and across.cell >= _CHARACTER * (2 + len(value))
+    ink = "white" if share < _DARK else "black"
+    return f'<rect {place} fill="{colour}">{tip}</rect>{_text(x, y + 5, value, fill=ink) if room else ""}'
 
 
 def _colour(share: float) -> str:
@@ -88,5 +99,7 @@ def _colour(share: float) -> str:
     return "#" + "".join(f"{round(a + part * (b - a)):02x}" for a, b in zip(low, high, strict=True))
 
 
-def _text(x: float, y: float, text: str, anchor: str = "middle") -> str:
-    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" font-size="13" fill="currentColor">{escape(text)}</text>'
+def _text(x: float, y: float, text: str, anchor: str = "middle", tip: str = "", fill: str = "currentColor") -> str:
+    told = f"<title>{escape(tip)}</title>" if tip else ""
+    place = f'x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" font-size="13" fill="{fill}"'
+    return f"<text {place}>{told}{escape(text)}</text>"

@@ -1,6 +1,7 @@
 """`atlas-cueing batch`: thousands of runs, on one machine or many."""
 
 import os
+import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -58,6 +59,7 @@ A file with a [sweep] table stands for many runs:
 """
 
 SHOWN_METRICS = ("direction_rms_rad", "force_rms_m_s2", "rate_rms_rad_s", "wheels_limited_share", "stage_limited_share")
+_SHOWN_NAMES = 5  # metrics that a wrong --sort is answered with
 _SHOWN_FINDINGS = 20  # lines on stderr; the table has all
 
 
@@ -128,7 +130,7 @@ def _plan_text(runs: "Sequence[PlannedRun]", todo: "Sequence[PlannedRun]") -> st
     known = sum(run.duration or 0.0 for run in todo)
     unknown = sum(run.duration is None for run in todo)
     more = f", and {unknown} of unknown length" if unknown else ""
-    return f"{len(runs)} runs, {len(runs) - len(todo)} of them done already; to fly: {spoken(known)} of flight at most{more}"
+    return f"{_runs(len(runs))}, {len(runs) - len(todo)} of them done already; to fly: {spoken(known)} of flight at most{more}"
 
 
 def _write(outcomes: "Sequence[Outcome]", results: "Results", sort: str) -> list[Mapping[str, Any]]:
@@ -171,10 +173,23 @@ def _check_plotly() -> None:
 
 def _check_metric(name: str) -> None:
     from ..batch import metric_names
-    from ..scenario.mistakes import nearest
 
     if name not in metric_names():
-        raise InputError(f"--sort {name}: no such metric; {nearest(name, metric_names())}")
+        raise InputError(f"--sort {name}: no such metric; {_meant(name, metric_names())}")
+
+
+def _meant(word: str, names: Sequence[str]) -> str:
+    """Names that begin with the word, then those that contain it; only without any the nearest in its letters."""
+    from ..scenario.mistakes import nearest
+
+    part = re.sub(r"[\s-]+", "_", word.strip().lower())
+    found = sorted((name for name in names if part and part in name), key=lambda name: not name.startswith(part))
+    more = f" and {len(found) - _SHOWN_NAMES} more" if len(found) > _SHOWN_NAMES else ""
+    return f"did you mean {', '.join(found[:_SHOWN_NAMES])}{more}?" if found else nearest(word, names)
+
+
+def _runs(count: int) -> str:
+    return f"{count} run" if count == 1 else f"{count} runs"
 
 
 def _settings(outcomes: "Sequence[Outcome]") -> list[str]:
@@ -235,7 +250,10 @@ def _end(outcomes: "Sequence[Outcome]", *, stopped: bool) -> None:
         typer.echo(f"and {len(findings) - _SHOWN_FINDINGS} more; summary.csv has all", err=True)
     left = sum(outcome.record is None or not outcome.record.final for outcome in outcomes)
     if left:
-        typer.echo(f"{'stopped: ' if stopped else ''}{left} runs not done; the same command flies them", err=True)
+        typer.echo(
+            f"{'stopped: ' if stopped else ''}{_runs(left)} not done; the same command flies {'it' if left == 1 else 'them'}",
+            err=True,
+        )
     if findings or left:
         raise typer.Exit(1)
 

@@ -42,7 +42,8 @@ class Count:
     def text(self) -> str:
         """All of it in a line."""
         speed = self._flown / max(self.wall, 1e-9)
-        return f"{self.done} of {self.total} runs done, {self.failed} failed, {speed:.0f} flight s a second{self._rest()}"
+        runs = "1 run" if self.total == 1 else f"{self.total} runs"
+        return f"{self.done} of {runs} done, {self.failed} failed, {speed:.0f} flight s a second{self._rest()}"
 
     def _rest(self) -> str:
         if self._worked == 0 or self.done == self.total:

@@ -1,7 +1,9 @@
 """The specific force as an arrow at the head, in cabin axes: what pushes on the seat, so that 1 g upright points up."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
 
 from ..rotation import IDENTITY, flip, norm, scale, shortest_arc
 from ..signals import STANDARD_GRAVITY
@@ -10,30 +12,75 @@ from .shapes import Array, rod
 if TYPE_CHECKING:
     from viser import SceneApi
 
-_LENGTH = 0.62  # of the sphere's radius, at 1 g
-_LONGEST = 3.0  # g; more is drawn as this
+USUAL = 2.0  # g (assumed); the largest of a flight that is not known yet, more is drawn as this
+_REACH = 0.9  # of the sphere's radius: the longest arrow; at the top of the stage its label is still in the picture
+_MOST_UNIT = 0.62  # of the sphere's radius, at 1 g: a gentle flight is not drawn larger
+_MOST = 8.0  # g; of a crash, more is drawn as this, so that 1 g can still be seen
 _SHORTEST = 1e-3  # g; less has no direction worth showing
+_STEP = 0.1  # g; of the number at the arrow's head
+
+
+class ForceScale:
+    """How long a force is drawn, so that the largest of a flight stays in the picture."""
+
+    def __init__(self, radius: float, largest: float = USUAL) -> None:
+        """For a sphere of `radius` (m) and forces up to `largest` (g); what is larger is drawn as long as that."""
+        self.largest = min(max(largest, _REACH / _MOST_UNIT), _MOST)
+        self.unit = _REACH * radius / self.largest
+        """Length of 1 g, m."""
+
+    def length(self, size: float) -> float:
+        """Length of a force of `size` g, m."""
+        return self.unit * min(size, self.largest)
+
+    @property
+    def told(self) -> str:
+        """The scale in words."""
+        longest = f"at most {self.length(self.largest):.2f} m ({self.largest:.1f} g)"
+        return f"arrows are specific force: 1 g = {self.unit:.2f} m, {longest}"
+
+
+def largest_g(*forces: Array) -> float:
+    """The largest force, g, of rows of forces (m/s^2, (n, 3)); rows that are not finite do not count, 0 for none."""
+    sizes = [np.linalg.norm(rows[np.isfinite(rows).all(axis=1)], axis=1) for rows in forces]
+    return max((float(found.max()) for found in sizes if len(found)), default=0.0) / STANDARD_GRAVITY
 
 
 class ForceArrow:
-    """An arrow whose length is the force."""
+    """An arrow whose length is the force; its head tells whose it is, and how many g."""
 
-    def __init__(self, scene: "SceneApi", path: str, radius: float, colour: tuple[int, int, int], width: float) -> None:
-        """Drawn in the frame above `path`, for a sphere of `radius` (m); `width` is a share of it."""
-        self._unit = _LENGTH * radius
-        up, thick = (0.0, 0.0, 1.0), width * radius
+    def __init__(
+        self,
+        scene: "SceneApi",
+        path: str,
+        drawn: ForceScale,
+        thick: float,
+        colour: tuple[int, int, int],
+        name: str,
+        anchor: Literal["bottom-left", "bottom-right"],
+    ) -> None:
+        """Drawn in the frame above `path`, `thick` m; `anchor`: which corner of the label is at the head."""
+        self._drawn, self._name, self._said = drawn, name, ""
+        up = (0.0, 0.0, 1.0)
         self._frame = scene.add_frame(path, show_axes=False)
         vertices, faces = rod((0.0, 0.0, 0.0), up, thick)
         self._shaft = scene.add_mesh_simple(f"{path}/shaft", vertices, faces, color=colour, cast_shadow=False)
         vertices, faces = rod((0.0, 0.0, 0.0), scale(7.0 * thick, up), 2.4 * thick, 0.0)
         self._tip = scene.add_mesh_simple(f"{path}/tip", vertices, faces, color=colour, cast_shadow=False)
+        self._label = scene.add_label(f"{path}/tip/name", name, position=scale(7.0 * thick, up), anchor=anchor)
 
     def show(self, force: Sequence[float] | Array) -> None:
         """Point along `force` (m/s^2, cabin FRD)."""
         x, y, z = force
         along = flip((float(x), float(y), float(z)))
         size = norm(along) / STANDARD_GRAVITY
-        length = self._unit * min(size, _LONGEST)
+        length = self._drawn.length(size)
         self._frame.wxyz = shortest_arc((0.0, 0.0, 1.0), along) if size > _SHORTEST else IDENTITY
         self._shaft.scale = (1.0, 1.0, max(length, 1e-6))
         self._tip.position = (0.0, 0.0, length)
+        self._say(f"{self._name} {_STEP * round(size / _STEP):.1f} g")
+
+    def _say(self, text: str) -> None:
+        """Change the label if it says something else: every change is a message to the page."""
+        if text != self._said:
+            self._label.text = self._said = text

@@ -2,12 +2,14 @@
 
 import time
 from collections.abc import Callable
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..evaluation import Flight
 from ..scenario import Platform
+from .forces import largest_g
 from .plots import Plots, Traces
 from .recorded import RecordedMotion
 from .scene import KEY, Scene
@@ -47,8 +49,9 @@ class PlayHead:
         self.speed = speed
 
     def seek(self, at: float) -> None:
-        """Go to a time (s); whether it plays stays as it is."""
-        self.at = min(max(at, self.start), self.end)
+        """Go to a time (s), unless it is not finite; whether it plays stays as it is."""
+        if isfinite(at):
+            self.at = min(max(at, self.start), self.end)
 
 
 class PlayPage:
@@ -58,7 +61,7 @@ class PlayPage:
         self._flight, self._motion = flight, RecordedMotion(flight)
         self._points = thinned(flight.time)
         self.head = PlayHead(float(flight.time[0]), float(flight.time[-1]))
-        self._scene = Scene(server, platform)
+        self._scene = Scene(server, platform, largest_g(flight.vehicle_f_B, flight.felt_f))
         gui = server.gui
         gui.main_panel.dock_left()
         gui.main_panel.set_width(270)
@@ -70,7 +73,7 @@ class PlayPage:
         speed: Any = gui.add_button_group("speed", _SPEEDS)
         self._button.on_click(lambda _: self.head.toggle())
         self._bar.on_update(lambda event: None if event.client is None else self.head.seek(self._bar.value))
-        speed.on_click(lambda _: self.head.run_at(_TIMES[speed.value]))
+        speed.on_click(lambda _: self.head.run_at(_TIMES.get(speed.value, self.head.speed)))  # any text a client sends
         gui.add_html(KEY)
         panel = gui.add_panel()
         with panel.add_tab("Last 20 s"):

@@ -11,7 +11,9 @@ import numpy as np
 
 from ..errors import OutputError
 from ..evaluation import Flight
+from ..recording.whole_file import write_whole
 from ..scenario import Platform
+from .forces import largest_g
 from .recorded import RecordedMotion
 from .scene import Scene
 from .server import check_viser, close_server, open_server
@@ -30,15 +32,15 @@ def write_replay(platform: Platform, flight: Flight, file: Path) -> None:
     Raises InputError when viser is not installed or there is no motion to show, OutputError when the file cannot be written.
     """
     check_viser("report")
-    motion = RecordedMotion(flight)
+    motion, largest = RecordedMotion(flight), largest_g(flight.vehicle_f_B, flight.felt_f)
     shown, pause = frames(flight.time)
     server = open_server(0)
     try:
-        html = _replay(server, platform, motion, shown, pause)
+        html = _replay(server, Scene(server, platform, largest), motion, shown, pause)
     finally:
         close_server(server)
     try:
-        file.write_text(html, encoding="utf-8")
+        write_whole(file, html)
     except OSError as error:
         raise OutputError(f"page {file}: {error.strerror}") from error
 
@@ -51,9 +53,8 @@ def frames(time: Array) -> tuple[Array, float]:
     return shown, duration / count
 
 
-def _replay(server: "ViserServer", platform: Platform, motion: RecordedMotion, shown: Array, pause: float) -> str:
-    """Draw the platform, then move it frame by frame."""
-    scene = Scene(server, platform)
+def _replay(server: "ViserServer", scene: Scene, motion: RecordedMotion, shown: Array, pause: float) -> str:
+    """Move what is drawn, frame by frame."""
     recording = server.get_scene_serializer()
     for tick in shown:
         scene.show(motion.pose(int(tick)))

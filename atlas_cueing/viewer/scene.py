@@ -9,7 +9,7 @@ import numpy as np
 from ..rotation import exp, multiply
 from ..scenario import Platform
 from .cabin import draw_cabin
-from .forces import ForceArrow
+from .forces import USUAL, ForceArrow, ForceScale
 from .shapes import Array
 from .stage import Stage, draw_stage
 from .wheels import draw_wheels
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 FELT, PILOT = (0, 158, 115), (213, 94, 0)  # colour-blind safe (Okabe & Ito 2008)
 _SKY, _HAZE = (214, 226, 238), (250, 251, 252)  # background, top and bottom
+_SCALE_AT = (1.7, 0.1)  # of the sphere's radius: x, y of the words on the arrows' scale, on the floor, left for the camera
 
 _KEY = '<div style="margin:2px 14px;font-size:13px"><span style="color:rgb{}">&#9650;</span> {}</div>'
 KEY = _KEY.format(FELT, "specific force on the rider") + _KEY.format(PILOT, "on the pilot in the vehicle")
@@ -49,7 +50,8 @@ class Pose:
 class Scene:
     """The platform in its page; wheel and stage sizes are the platform's, what they stand on is made up."""
 
-    def __init__(self, server: "ViserServer", platform: Platform) -> None:
+    def __init__(self, server: "ViserServer", platform: Platform, largest: float = USUAL) -> None:
+        """Draw the platform at rest; `largest`: the largest force (g) of pilot and rider that its arrows shall show."""
         scene, radius = server.scene, platform.sphere.radius_m
         scene.set_up_direction("+z")
         scene.set_background_image(_background(), format="png")
@@ -62,8 +64,11 @@ class Scene:
         self._cabin = draw_cabin(scene, f"{self._stage.path}/cabin", platform)
         head = f"{self._stage.path}/cabin/head"
         scene.add_frame(head, show_axes=False, position=platform.head_S)
-        self._pilot = ForceArrow(scene, f"{head}/pilot", radius, PILOT, 0.022)
-        self._felt = ForceArrow(scene, f"{head}/felt", radius, FELT, 0.03)
+        drawn = ForceScale(radius, largest)
+        self._pilot = ForceArrow(scene, f"{head}/pilot", drawn, 0.022 * radius, PILOT, "vehicle", "bottom-right")
+        self._felt = ForceArrow(scene, f"{head}/felt", drawn, 0.03 * radius, FELT, "rider", "bottom-left")
+        place = (_SCALE_AT[0] * radius, _SCALE_AT[1] * radius, self._stage.floor)
+        scene.add_label("/scale", drawn.told, position=place, anchor="center-center")
         camera, middle = server.initial_camera, 0.5 * self._stage.floor
         far = 1.08 * max(2.2 * radius - middle, 3.0 * radius)
         camera.position = (0.95 * far, 1.3 * far, 0.42 * far)

@@ -24,6 +24,25 @@ def test_a_grid_has_a_cell_for_each_pair() -> None:
     assert {cell["width"] for cell, _ in cells} == {"213.3"}
 
 
+def test_a_cell_tells_its_figure_in_the_unit_shown_where_there_is_room() -> None:
+    rows: list[dict[str, object]] = [{"x": x, "a.y_deg_s": y, "m_rms_rad": 0.1 * x * y} for x, y in product((1, 2), (3, 5))]
+    svg = ET.fromstring(picture(rows, "x", "a.y_deg_s", "m_rms_rad"))  # noqa: S314 - our own
+    texts = ["".join(text.itertext()) for text in svg.iter(f"{SVG}text")]
+    assert {"17.19", "28.65", "34.38", "57.30"} < set(texts)  # degrees
+    assert "m rms, deg: 17.19 (dark) to 57.30 (light)" in [text.removeprefix("m_rms_rad") for text in texts]
+    assert "a.y_deg_sy, deg/s" in texts  # the key as the tooltip
+    inks = {"".join(text.itertext()): text.attrib["fill"] for text in svg.iter(f"{SVG}text")}
+    assert (inks["17.19"], inks["57.30"]) == ("white", "black")
+    many: list[dict[str, object]] = [{"x": x, "y": y, "m": 1.2345678} for x, y in product(range(40), range(40))]
+    assert [text for text in drawn(many).iter(f"{SVG}text") if text.text == "1.2346"] == []
+
+
+def test_a_few_rows_are_no_higher_than_they_need_be() -> None:
+    few, many = ([{"x": 1, "y": y, "m": 1.0} for y in range(count)] for count in (3, 60))
+    assert float(drawn(list(few)).attrib["viewBox"].split()[3]) == 34.0 + 3 * 48.0 + 50.0
+    assert float(drawn(list(many)).attrib["viewBox"].split()[3]) == 34.0 + 400.0 + 50.0
+
+
 def test_several_runs_of_a_cell_are_averaged() -> None:
     rows: list[dict[str, object]] = [{"x": 1, "y": y, "m": m} for y, m in ((1, 2.0), (1, 4.0), (2, 5.0))]
     assert {title for _, title in marks(drawn(rows), "rect")} == {"3", "5"}

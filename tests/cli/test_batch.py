@@ -95,6 +95,27 @@ def test_bad_input_writes_nothing(sweep: Command, tmp_path: Path, arguments: lis
     assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]
 
 
+@pytest.mark.parametrize(
+    ("word", "meant"),
+    [
+        ("force", r"force_rms_m_s2, force_p95_m_s2, force_max_m_s2, force_\w+, force_\w+ and \d+ more\?"),
+        ("Stage travel", r"stage_travel_max_m\?"),  # as the review writes it
+        ("drift", "allowed: .*|did you mean '.*"),  # in no name
+        ("dirction_rms_rad", r"'direction_rms_rad'\?"),
+        ("p99", r"extra_rate_p99_rad_s\?"),  # in the middle of a name
+    ],
+)
+def test_a_wrong_metric_is_answered_with_those_that_were_meant(sweep: Command, word: str, meant: str) -> None:
+    ended = sweep("batch", "s.toml", "-o", "out", "--sort", word)
+    assert ended.status == 2
+    assert re.search(rf"--sort {word}: no such metric; (did you mean )?({meant})", ended.err.replace("\n", " "))
+
+
+def test_one_run_is_one_run(sweep: Command) -> None:
+    one = sweep("batch", "s.toml", "-o", "out", "--dry-run", "--set", 'sweep={cueing.method=["blend"]}')
+    assert one.err.startswith("1 run, 0 of them done already")
+
+
 def test_pages_for_the_browser(sweep: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     command = ("batch", "s.toml", "-o", "out", "--pages", "--set", "sweep.cueing.force_gain=[1.0]")
     assert sweep(*command).status == 0

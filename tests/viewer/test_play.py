@@ -1,5 +1,7 @@
 """The play bar of a log."""
 
+from math import inf, nan
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -47,6 +49,41 @@ def test_it_never_leaves_the_flight(acts: list[Any]) -> None:
         else:
             head.advance(act)
         assert 1.0 <= head.at <= 6.0
+
+
+@pytest.mark.parametrize("at", [nan, inf, -inf])
+def test_it_does_not_go_to_what_is_no_time(at: float) -> None:
+    head = PlayHead(1.0, 6.0)
+    head.seek(3.0)
+    head.seek(at)
+    head.advance(0.5)
+    assert (head.at, head.playing) == (3.5, True)
+
+
+def sent(server: Any, label: str, value: Any) -> None:
+    """A client sets a value, as viser takes it: of the right type, and otherwise whatever it says."""
+    (handle,) = (h for h in server.gui._gui_input_handle_from_uuid.values() if getattr(h._impl.props, "label", "") == label)
+    handle._impl.value = type(handle._impl.value)(value)
+    assert handle._impl.update_cb
+    for called in handle._impl.update_cb:
+        called(SimpleNamespace(client=object(), target=handle))
+
+
+def test_a_client_is_not_trusted(server: Any, run: RecordedRun) -> None:
+    """What the page sends comes from its own buttons and bar, unless somebody else sends it."""
+    page = PlayPage(server, run.platform, run.flight)
+    sent(server, "speed", "2")
+    sent(server, "time, s", 3.0)
+    assert (page.head.speed, page.head.at) == (2.0, 3.0)
+    for value in ("3", "", "nan", "¼" * 1000):
+        sent(server, "speed", value)
+    for value in (nan, inf, -inf):
+        sent(server, "time, s", value)
+    assert (page.head.speed, page.head.at) == (2.0, 3.0)
+    sent(server, "speed", "¼")
+    sent(server, "time, s", 1e300)
+    page.refresh(0.0)
+    assert (page.head.speed, page.head.at) == (0.25, page.head.end)
 
 
 def test_thinned_ticks_are_a_step_apart() -> None:

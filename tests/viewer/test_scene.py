@@ -104,17 +104,47 @@ def test_the_telescope_holds_together_over_the_travel(server: Any, preset: str, 
 
 @pytest.mark.parametrize("size", [0.0, 1e-311, 1e-3, 2.0, 9.80665, 29.0, 300.0])
 def test_the_arrow_is_the_force(server: Any, platform: Platform, size: float) -> None:
-    """Forward, right, down becomes forward, left, up; 3 g is the longest."""
+    """Forward, right, down becomes forward, left, up; of a flight that is not known, 2 g is the longest."""
     f = size * np.array((0.48, 0.6, -0.64))
     Scene(server, platform).show(Pose(REST.q_WS, REST.p_W, REST.wheel_angle, f, REST.felt_f))
     _, turned = place(server, f"{BESIDE}/cabin/head/pilot")
     tip = node(server, f"{BESIDE}/cabin/head/pilot/tip").position
-    shown = min(size, 3.0 * 9.80665) / 9.80665 * 0.62 * platform.sphere.radius_m
+    shown = min(size / 9.80665 / 2.0, 1.0) * 0.9 * platform.sphere.radius_m
     assert np.linalg.norm(tip) == pytest.approx(shown, abs=1e-6)
     if size > 0.01:
         assert turned.apply(tip) == pytest.approx(shown * np.array((0.48, -0.6, 0.64)), abs=1e-5)
     _, upright = place(server, f"{BESIDE}/cabin/head/felt")
     assert upright.apply((0.0, 0.0, 1.0)) == pytest.approx([0.0, 0.0, 1.0])
+
+
+@pytest.mark.parametrize("preset", presets())
+@pytest.mark.parametrize("largest", [0.0, 1.0, 2.9, 7.5])
+def test_the_largest_force_stays_in_the_picture(server: Any, preset: str, largest: float) -> None:
+    """Wherever the stage is and however the rider is turned, the head of the longest arrow is in a picture of 4 to 3."""
+    platform, rng = load_platform(preset), np.random.default_rng(2)
+    scene = Scene(server, platform, largest)
+    travel = np.array(platform.stage_motion_limits().travel)
+    camera = server.initial_camera
+    ahead = (camera.look_at - camera.position) / np.linalg.norm(camera.look_at - camera.position)
+    right = np.cross(ahead, (0.0, 0.0, 1.0)) / np.linalg.norm(np.cross(ahead, (0.0, 0.0, 1.0)))
+    for p in (np.array((x, y, z)) * travel for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)):
+        q, along = Rotation.random(rng=rng), rng.normal(size=3)
+        along = np.array((0.0, 0.0, 1.0)) if rng.random() < 0.5 else along / np.linalg.norm(along)
+        f = largest * 9.80665 * q.inv().apply(along) * (1, -1, -1)
+        scene.show(Pose(q.as_quat(scalar_first=True), p, (0.0, 0.0, 0.0), f, REST.felt_f))
+        head = place(server, f"{BESIDE}/cabin/head/pilot/tip/name")[0] - camera.position
+        half = np.tan(0.5 * camera.fov) * (head @ ahead)
+        assert abs(head @ np.cross(right, ahead)) < 0.95 * half
+        assert abs(head @ right) < 4.0 / 3.0 * 0.95 * half
+
+
+def test_arrows_tell_whose_they_are_and_how_large(server: Any, platform: Platform) -> None:
+    scene = Scene(server, platform, 2.9)
+    said = [node(server, f"{BESIDE}/cabin/head/{name}/tip/name") for name in ("pilot", "felt")]
+    scene.show(Pose(REST.q_WS, REST.p_W, REST.wheel_angle, (0.0, 0.0, -28.44), REST.felt_f))
+    assert [label.text for label in said] == ["vehicle 2.9 g", "rider 1.0 g"]
+    assert node(server, "/scale").text == "arrows are specific force: 1 g = 0.45 m, at most 1.30 m (2.9 g)"
+    assert len({label.anchor for label in said}) == 2  # where both arrows are the same, the labels still stand apart
 
 
 def test_a_pose_with_a_number_that_is_none_cannot_be_drawn() -> None:
