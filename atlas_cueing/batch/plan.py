@@ -1,17 +1,20 @@
 """What a batch will fly: every run of every file, checked before anything runs."""
 
+import os
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import inf
 from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, ScenarioError
-from ..scenario import Scenario, build, load_variants, scenario_files
+from ..scenario import Scenario, Variant, build, load_variants, scenario_files
 from ..vehicles import own_scripts
 from .run_id import run_id
 
+MANY = 1000  # runs; to check as many takes seconds
+MOST_REFUSED = 500  # runs of a file; what is wrong with that many is mostly one thing
 _LARGEST_SCRIPT = 20_000_000  # bytes; what JSBSim is given at most
 _NUMBER = rb"""\s*=\s*["']\s*([0-9.eE+-]+)\s*["']"""
 
@@ -36,31 +39,47 @@ class PlannedRun:
         return inf if self.duration is None else self.duration / self.step
 
 
-def plan(paths: Iterable[Path], overrides: Sequence[str] = (), *, trust_models: bool = False) -> list[PlannedRun]:
+def plan(
+    paths: Iterable[Path],
+    overrides: Sequence[str] = (),
+    *,
+    trust_models: bool = False,
+    checking: Callable[[Path, int], object] = lambda _file, _runs: None,
+) -> list[PlannedRun]:
     """All runs of scenario files, sweeps and folders of them; of runs that are the same the first.
 
     Raises InputError with the mistakes of all files at once, also when a platform cannot be driven or does not fit the step,
-    and for a user's script without `trust_models`.
+    and for a user's script without `trust_models`; a file's runs are looked at up to MOST_REFUSED that are wrong. `checking` is
+    called with a file of MANY runs or more, and their number, before they are.
     """
     runs: dict[str, PlannedRun] = {}
     wrong: dict[str, None] = {}  # an ordered set
-    for path in paths:
+    for file in _files(paths, wrong):
         try:
-            for file in scenario_files(path) if path.is_dir() else [path]:
-                _add(runs, wrong, file, overrides, trust_models)
+            variants = load_variants(file, overrides, trust_models=trust_models)
         except ScenarioError as error:
             wrong |= dict.fromkeys(str(error).splitlines())
+            continue
+        if len(variants) >= MANY:
+            checking(file, len(variants))
+        _add(runs, wrong, file, variants)
     if wrong:
         raise InputError("\n".join(wrong))
     return list(runs.values())
 
 
-def _add(runs: dict[str, PlannedRun], wrong: dict[str, None], file: Path, overrides: Sequence[str], trust_models: bool) -> None:
-    try:
-        variants = load_variants(file, overrides, trust_models=trust_models)
-    except ScenarioError as error:
-        wrong |= dict.fromkeys(str(error).splitlines())
-        return
+def _files(paths: Iterable[Path], wrong: dict[str, None]) -> Iterator[Path]:
+    """The files, and those of folders."""
+    for path in paths:
+        try:
+            yield from scenario_files(path) if os.path.isdir(path) else [path]  # Path.is_dir raises when a name is too long
+        except ScenarioError as error:
+            wrong |= dict.fromkeys(str(error).splitlines())
+
+
+def _add(runs: dict[str, PlannedRun], wrong: dict[str, None], file: Path, variants: Sequence[Variant]) -> None:
+    """Put the runs of a file with those of the files before, or what is wrong with them."""
+    refused = 0
     for variant in variants:
         duration, step = _course(variant.scenario)
         try:
@@ -68,6 +87,9 @@ def _add(runs: dict[str, PlannedRun], wrong: dict[str, None], file: Path, overri
             name = run_id(variant.scenario)
         except InputError as error:
             wrong[f"{file}: {error}"] = None
+            refused += 1
+            if refused == MOST_REFUSED:
+                break
             continue
         runs.setdefault(name, PlannedRun(name, file, variant.scenario, variant.settings, duration, step))
 

@@ -98,7 +98,7 @@ def batch(
     _check_metric(sort)
     if pages:
         _check_plotly()
-    runs = plan(paths, settings or (), trust_models=trust_models)
+    runs = plan(paths, settings or (), trust_models=trust_models, checking=_tell)
     results = results_at(output)
     results.check()
     todo = missing(runs, results, retry=retry)
@@ -116,6 +116,11 @@ def batch(
 
 
 @contextmanager
+def _tell(file: Path, runs: int) -> None:
+    """To check thousands takes many seconds, in which nothing else is said."""
+    typer.echo(f"checking {runs} runs of {file}", err=True)
+
+
 def _flyer(address: str | None, jobs: int) -> "Iterator[Fly]":
     from ..batch import fly_here, on_cluster
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ..scenario import Scenario
 
 _HIGHEST_PORT = 65535
-_LARGEST_KEY = 4096  # bytes; SHA-256 uses no more than 64 of them as they are
+_LARGEST_KEY = 4096  # bytes of its file; keys have 32 at most
 
 
 @contextmanager

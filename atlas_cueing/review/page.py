@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, OutputError
+from ..recording.whole_file import write_whole
 from .comparison import Comparison
 from .figures import Figure, telling
 from .punctuality import is_live
@@ -30,7 +31,7 @@ li.finding { color: #c00000; } details { margin: 0.5em 0; }
 def write_page(found: Review, file: Path) -> None:
     """Write the review with plots of everything into `file`.
 
-    Raises InputError when plotly is not installed and OutputError when the file cannot be written.
+    Raises InputError when plotly is not installed and OutputError when the file cannot be written; an old one is kept then.
     """
     plots = _plots()
     from .limits_plot import limit_bars
@@ -151,7 +152,7 @@ def _write(file: Path, title: str, sections: "Sequence[tuple[str, str | Plot]]")
         pieces.append(f"<h2>{escape(heading)}</h2>" if heading else "")
         pieces.append(content if isinstance(content, str) else _html(content))
     try:
-        file.write_text("".join([*pieces, "</body></html>\n"]), encoding="utf-8")
+        write_whole(file, "".join([*pieces, "</body></html>\n"]))
     except OSError as error:
         raise OutputError(f"page {file}: {error.strerror}") from error
 

@@ -17,6 +17,7 @@ DEEPEST_NESTING = 16  # brackets within brackets; the files here need three
 LONGEST_DOTTED_KEY = 16  # dots; the files here need three
 LONGEST_KEY = 100  # characters; the longest here has 25
 MOST_KEYS = 20_000  # of all tables; thousands of timed inputs, and every one may be a mistake to be told
+_LOG = b"\x89MCAP"  # how logs begin
 
 # Strings and comments hold brackets and dots that mean nothing. A string may lack its end, so that every character is read
 # once (the parser stops there anyway), and nothing is given back (`*+`); up to five quotes end a string of three.
@@ -77,6 +78,8 @@ def _read(path: Path) -> str:
     except (OSError, ValueError) as error:  # ValueError: a NUL in the path
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise _mistake(str(path), "file", f"cannot be read: {reason}") from None
+    if content.startswith(_LOG):
+        raise _mistake(str(path), "file", "is a log (MCAP), allowed: a TOML file; to look at a log: atlas-cueing review")
     if len(content) > LARGEST_FILE:
         raise _mistake(str(path), "file", f"too large, allowed: size <= {LARGEST_FILE} bytes")
     try:

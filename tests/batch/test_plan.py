@@ -1,3 +1,4 @@
+import sys
 from math import inf
 from pathlib import Path
 
@@ -7,6 +8,8 @@ from atlas_cueing.batch.plan import plan
 from atlas_cueing.errors import InputError
 
 from .sweeping import SWEEP, planned
+
+planning = sys.modules[plan.__module__]  # its name is the function's, too
 
 
 def test_sweeps_files_and_folders(tmp_path: Path) -> None:
@@ -42,6 +45,34 @@ def test_a_platform_that_cannot_be_driven_is_refused_before_anything(tmp_path: P
     text = SWEEP + same
     with pytest.raises(InputError, match=r"sweep\.toml: platform .* kinematic slip condition"):
         planned(tmp_path, text=text)
+
+
+def test_what_spoils_many_runs_is_told_without_checking_them_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    checked = []
+    check = planning._check
+    monkeypatch.setattr(planning, "MOST_REFUSED", 3)
+    monkeypatch.setattr(planning, "_check", lambda scenario, step: (checked.append(step), check(scenario, step)))
+    same = "\n".join(f"platform.wheel.{i}.contact = [[1, 0, 0]]\nplatform.wheel.{i}.drive = [[0, 1, 0]]" for i in (0, 1))
+    many = "\ndraws = 20\nplatform.sphere.radius_m = { low = 1, high = 2 }\n"
+    with pytest.raises(InputError, match="kinematic slip condition"):
+        planned(tmp_path, text=SWEEP + same + many)
+    assert len(checked) == 3
+
+
+def test_who_asks_for_many_runs_is_told_before_they_are_checked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    told: list[tuple[str, int]] = []
+    (tmp_path / "sweep.toml").write_text(SWEEP)
+    monkeypatch.setattr(planning, "run_id", lambda _: pytest.fail("checked before") if not told else "id")
+    monkeypatch.setattr(planning, "MANY", 4)
+    plan([tmp_path], checking=lambda file, runs: told.append((file.name, runs)))
+    assert told == [("sweep.toml", 4)]
+    monkeypatch.setattr(planning, "MANY", 5)
+    plan([tmp_path], checking=lambda *_: pytest.fail("these are few"))
+
+
+def test_a_name_too_long_for_the_disk(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="File name too long"):
+        plan([tmp_path / ("x" * 5000)])
 
 
 def test_how_long_it_may_take(tmp_path: Path) -> None:

@@ -23,6 +23,7 @@ preset = "atlas-2.9m"
 """
 _INPUT = '[[vehicle.input]]\ntime_s = 0.1\nproperty = "{}"\nvalue = {}\n'
 _HUGE = 10 * 2**30  # bytes
+_LOG = b"\x89MCAP0\r\n" + bytes(300_000)
 # Whatever a path may lead to instead of a file of ours; none of it is to be waited for or read to its end.
 NO_FILES: dict[str, tuple[str, dict[str, Content]]] = {
     "FIFO": ("it", {"it": Pipe()}),
@@ -31,6 +32,7 @@ NO_FILES: dict[str, tuple[str, dict[str, Content]]] = {
     "folder": ("it", {"it": Folder()}),
     "links in a circle": ("it", {"it": Link("that"), "that": Link("it")}),
     "10 GB of nothing": ("it", {"it": Hole(_HUGE)}),
+    "a name of 5 kB": ("x" * 5000, {}),
 }
 
 
@@ -66,6 +68,7 @@ TEXTS = [
     scenario("empty file", "", says="name: missing"),
     scenario("NUL bytes", bytes(1000)),
     scenario("not UTF-8", b'name = "\xff"', says="not UTF-8"),
+    scenario("a log", _LOG, says="is a log (MCAP)"),
     scenario("300 kB", SCENARIO + "#" * 300_000, says="too large"),
     scenario("dotted key of 40 kB", ".".join("a" * 20_000) + "=1\n" + SCENARIO, says="too many dots"),
     scenario("20,000 brackets deep", "a = " + "[" * 20_000, says="nested too deeply"),
@@ -197,13 +200,13 @@ SWEEPS = [
     ),
 ]
 PLATFORMS = [
-    BadInput(f"platform {name[:30]}", ("platform", name), {"p.toml": text}, status, says)
+    BadInput(f"platform {name}: {says}", ("platform", name), {"p.toml": text}, status, says)
     for name, text, status, says in [
         ("nope", "", 2, "no such file or platform"),
         ("good.toml", "", 2, "unknown key"),
         ("p.toml", "", 2, "name: missing"),
         ("p.toml", "[" * 100, 2, "nested"),
-        ("x" * 5000, "", 2, ""),
+        ("p.toml", _LOG, 2, "is a log (MCAP)"),
     ]
 ]
 PATHS = [

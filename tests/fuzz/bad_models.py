@@ -53,7 +53,9 @@ SCRIPTS = [
     _run("unknown comparison", _SET.format(' value="1">').replace(" ge ", " gee "), "JSBSim cannot load it"),
     _run("condition on nothing", _SET.format(' value="1">').replace("simulation/sim-time-sec", "no/body"), "no/body", status=1),
     _run(
-        "a name that ends the process", _SET.format(' value="1">').replace("fcs/elevator-cmd-norm", "a b[["), "unknown JSBSim"
+        "a name that ends the process",
+        _SET.format(' value="1">').replace("fcs/elevator-cmd-norm", "a b[["),
+        "JSBSim cannot load it",
     ),
     _run(
         "clock held", _SET.format(' value="1">').replace("fcs/elevator-cmd-norm", "simulation/pause"), "stands still", status=1

@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
 from collections.abc import Iterable, Mapping, Sequence
@@ -16,6 +17,16 @@ from typing import TypeAlias
 _BOUNDED = "import resource; resource.setrlimit(resource.RLIMIT_DATA, (4 << 30, 4 << 30))"
 _MAIN = "import sys; from atlas_cueing.cli import main; sys.exit(main())"
 COMMAND = (sys.executable, "-W", "error", "-c", f"{_BOUNDED}; {_MAIN}")
+# A process counts the memory of the one it was started by as its own largest: it is started by a small one, which tells.
+_STARTER = """
+import os, sys
+child = os.fork()
+if child == 0:
+    os.execvp(sys.argv[2], sys.argv[2:])
+_, ended, usage = os.wait4(child, 0)
+with open(sys.argv[1], "w") as told:
+    print(os.waitstatus_to_exitcode(ended), usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024.0, file=told)
+"""
 PATIENCE = 300.0  # s of wall time, after which a command hangs
 BAD_USAGE = 2  # exit status of what was refused, with nothing written
 DISK = "disk"  # folder of inputs that need one of their own
@@ -201,17 +212,19 @@ def _start_up(command: tuple[str, ...]) -> float:
 
 def _run(words: Sequence[str], folder: Path) -> tuple[int, float, float, str]:
     """Exit status (negative: a signal), CPU time in s, largest resident memory in MB, and what it said on stderr."""
-    with (folder.parent / f"{folder.name}.err").open("w+b") as err:
-        process = subprocess.Popen(words, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=err)
-        alarm = Timer(PATIENCE, process.kill)
-        alarm.start()
-        _, ended, usage = os.wait4(process.pid, 0)
-        alarm.cancel()
-        process.returncode = os.waitstatus_to_exitcode(ended)
+    with TemporaryDirectory(prefix="bad_input_") as name, (Path(name) / "err").open("w+b") as err:
+        told = Path(name) / "told"
+        starter = [sys.executable, "-I", "-S", "-c", _STARTER, str(told), *words]
+        quiet = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": err}
+        with subprocess.Popen(starter, cwd=folder, process_group=0, **quiet) as process:  # type: ignore[call-overload]
+            alarm = Timer(PATIENCE, os.killpg, (process.pid, signal.SIGKILL))
+            alarm.start()
+            killed = process.wait()
+            alarm.cancel()
         err.seek(0)
         message = err.read().decode(errors="replace")
-        Path(err.name).unlink()
-    return process.returncode, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024.0, message
+        status, seconds, megabytes = told.read_text().split() if told.exists() else (killed, 0.0, 0.0)
+    return int(status), float(seconds), float(megabytes), message
 
 
 def counted(all_ended: Iterable[Ended]) -> str:

@@ -1,5 +1,6 @@
 """The pages as files; `test_browser` opens them."""
 
+import os
 import re
 import sys
 from dataclasses import replace
@@ -7,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from live.logs import largest_file
 
 from atlas_cueing.errors import InputError, OutputError
 from atlas_cueing.review import Finding, compare, judge, recue, review
@@ -113,6 +115,28 @@ def test_without_plotly_it_says_what_to_install(flight: Path, tmp_path: Path, mo
     monkeypatch.setitem(sys.modules, "plotly", None)
     with pytest.raises(InputError, match=r"pip install 'atlas_cueing\[report\]'"):
         write_page(review(flight), tmp_path / "page.html")
+
+
+def test_a_full_disk_leaves_the_old_page(flight: Path, tmp_path: Path) -> None:
+    found = review(flight)
+    (tmp_path / "page.html").write_text("old")
+    for file in ("page.html", "new.html"):
+        with largest_file(100_000), pytest.raises(OutputError, match=rf"page .*{file}: File too large"):
+            write_page(found, tmp_path / file)
+        with largest_file(100_000), pytest.raises(OutputError, match=rf"page .*{file}: File too large"):
+            write_comparison(compare([flight, flight]), tmp_path / file)
+    assert [path.name for path in tmp_path.iterdir()] == ["page.html"]
+    assert (tmp_path / "page.html").read_text() == "old"
+    write_page(found, tmp_path / "page.html")
+    assert [path.name for path in tmp_path.iterdir()] == ["page.html"]
+    assert len((tmp_path / "page.html").read_text()) > 1_000_000
+
+
+def test_a_log_whose_name_is_no_text(flight: Path, tmp_path: Path) -> None:
+    log = tmp_path / os.fsdecode(b"caf\xe9.mcap")
+    log.write_bytes(flight.read_bytes())
+    write_page(review(log), tmp_path / "page.html")
+    assert "caf?.mcap" in own_part((tmp_path / "page.html").read_text())
 
 
 def test_nowhere_to_write(flight: Path, tmp_path: Path) -> None:

@@ -4,8 +4,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from live.logs import largest_file
 
-from atlas_cueing.errors import InputError, LogError
+from atlas_cueing.errors import InputError, LogError, OutputError
 from atlas_cueing.recording import read_log
 from atlas_cueing.review import recue, review
 from atlas_cueing.scenario.cueing import METHODS, ForceTable
@@ -104,6 +105,16 @@ def test_a_log_that_cannot_be_cued(flight: Path, tmp_path: Path) -> None:
         recue(without, (), tmp_path / "new.mcap")
     with pytest.raises(LogError):
         recue(tmp_path / "s.toml" if (tmp_path / "s.toml").exists() else _text(tmp_path), (), tmp_path / "new.mcap")
+
+
+def test_a_full_disk_leaves_nothing(flight: Path, tmp_path: Path) -> None:
+    """Half of a log that can be made again is of no use; what was there stays."""
+    (tmp_path / "old.mcap").write_bytes(b"old")
+    for file in ("old.mcap", "new.mcap"):
+        with largest_file(20_000), pytest.raises(OutputError, match="File too large"):
+            recue(flight, (), tmp_path / file)
+    assert [path.name for path in tmp_path.iterdir()] == ["old.mcap"]
+    assert (tmp_path / "old.mcap").read_bytes() == b"old"
 
 
 def _text(folder: Path) -> Path:
