@@ -115,12 +115,12 @@ def batch(
     _end(outcomes, stopped=stop.requested)
 
 
-@contextmanager
 def _tell(file: Path, runs: int) -> None:
     """To check thousands takes many seconds, in which nothing else is said."""
     typer.echo(f"checking {runs} runs of {file}", err=True)
 
 
+@contextmanager
 def _flyer(address: str | None, jobs: int) -> "Iterator[Fly]":
     from ..batch import fly_here, on_cluster
 
