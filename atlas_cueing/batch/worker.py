@@ -56,6 +56,7 @@ def _flown(order: Order, results: Results, scratch: Path) -> Record:
     desk = results.desk(scratch)
 
     def work() -> bytes:
+        """The flight, as the child tells it."""
         tempfile.tempdir = str(scratch)
         confine(order.limits.memory)
         done = done_by_another(order.id, results)

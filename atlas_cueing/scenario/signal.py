@@ -21,6 +21,7 @@ def _one_of(names: Collection[str]) -> BeforeValidator:
     """One of a few words."""
 
     def check(value: Any) -> str:
+        """The word, or a refusal that names the allowed ones."""
         if not isinstance(value, str) or value not in names:
             raise refuse(", ".join(repr(name) for name in names))
         return value

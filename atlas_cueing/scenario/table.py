@@ -29,6 +29,7 @@ def number(lower: float, upper: float, *, above: bool = False) -> BeforeValidato
     text = f"a number, {lower:g} {'<' if above else '<='} value <= {upper:g}"
 
     def check(value: Any) -> float:
+        """The value, or a refusal that tells what is allowed."""
         # An integer of TOML has no bound, and float() of a huge one overflows: compare first.
         if isinstance(value, bool) or not isinstance(value, int | float) or not lower <= value <= upper:
             raise refuse(text)
@@ -43,6 +44,7 @@ def whole(lower: int, upper: int) -> BeforeValidator:
     """A whole number, `lower <= value <= upper`."""
 
     def check(value: Any) -> int:
+        """The value, or a refusal that tells what is allowed."""
         if isinstance(value, bool) or not isinstance(value, int) or not lower <= value <= upper:
             raise refuse(f"a whole number, {lower} <= value <= {upper}")
         return value
@@ -81,6 +83,7 @@ def text(allowed: str, accept: Callable[[str], bool]) -> BeforeValidator:
     """A string that `accept` likes."""
 
     def check(value: Any) -> str:
+        """The value, or a refusal that tells what is allowed."""
         if not isinstance(value, str) or not accept(value):
             raise refuse(allowed)
         return value

@@ -136,6 +136,7 @@ def _tables(name: str) -> BeforeValidator:
     """A list of tables."""
 
     def check(value: Any) -> Any:
+        """The tables, or a refusal that tells how they are written."""
         if not isinstance(value, list | tuple):
             raise refuse(f"tables, written [[vehicle.{name}]]")
         if len(value) > _MOST_TABLES:

@@ -84,6 +84,7 @@ def _draw_rider(scene: "SceneApi", path: str, radius: float, head: Array) -> Non
     size = radius / _MAN
 
     def limbs(pairs: list[tuple[tuple[float, float, float], tuple[float, float, float], float]]) -> Mesh:
+        """Rods between pairs of points with a radius each, in a man's own size."""
         return merged([rod(head + size * np.array(a), head + size * np.array(b), size * r) for a, b, r in pairs])
 
     scene.add_icosphere(f"{path}/face", radius=0.12 * size, color=_SKIN, position=tuple(head))

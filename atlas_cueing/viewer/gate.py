@@ -54,6 +54,7 @@ def _with_gate(serve: Callable[..., Any], connection: type[Any]) -> Callable[...
                 self.transport.abort()
 
     def gated_serve(handler: Any, host: Any, port: Any, *, process_request: Answer, **options: Any) -> Any:
+        """As `serve`, with the gate before every handshake and bounds on what a client may send."""
         ours = {"max_size": LARGEST_MESSAGE, "open_timeout": PATIENCE_S, "create_connection": Counted, "logger": _log}
         return serve(handler, host, port, process_request=_admitting(process_request), **options | ours)
 
