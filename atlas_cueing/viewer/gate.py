@@ -49,6 +49,7 @@ def _with_gate(serve: Callable[..., Any], connection: type[Any]) -> Callable[...
         """A connection that is cut when there are too many."""
 
         def connection_made(self, transport: asyncio.BaseTransport) -> None:
+            """Take it up, or cut it at once."""
             super().connection_made(transport)
             if len(self.server.handlers) > MOST_CONNECTIONS:
                 self.transport.abort()
@@ -63,6 +64,7 @@ def _with_gate(serve: Callable[..., Any], connection: type[Any]) -> Callable[...
 
 def _admitting(process: Answer) -> Answer:
     def admit(connection: Any, request: Any) -> Any:
+        """A refusal, or whatever the server itself answers."""
         if not admits(request.headers.get_all("Host"), request.headers.get_all("Origin")):
             return connection.respond(403, "not for pages of other hosts\n")
         if "Upgrade" in request.headers and len(connection.server.connections) >= MOST_CLIENTS:

@@ -54,7 +54,7 @@ def url_of(server: "ViserServer") -> str:
 def _close_tunnel(server: "ViserServer") -> None:
     """Nobody may ask for viser's public address."""
 
-    def refuse(verbose: bool = True) -> None:  # noqa: ARG001 - as viser calls it
-        return None
+    def refuse(verbose: bool = True) -> None:
+        """No address; called as viser does."""
 
     server.request_share_url = refuse  # type: ignore[method-assign]
