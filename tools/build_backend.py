@@ -40,6 +40,7 @@ __all__ = [
 PACKAGE = Path("atlas_cueing")
 EVERY_TICK = (
     "rotation.py",
+    "batch/run.py",
     "pipeline.py",
     "signals/states.py",
     "signals/topics.py",
@@ -53,7 +54,7 @@ EVERY_TICK = (
     *(f"live/{name}.py" for name in ("conductor", "course", "following", "guard", "interpolation", "ride", "source")),
     *(f"live/{name}.py" for name in ("supervisor", "vehicle_source")),
 )
-NOT = ("__init__.py", "horizon_problem.py")  # names only, and a solver in C already
+NOT = ("__init__.py",)  # names only
 SETTING = "ATLAS_CUEING_COMPILE"
 Settings = Mapping[str, Any] | None
 

@@ -1,8 +1,8 @@
 """A rotation method and the stage, side by side."""
 
-from typing import Protocol
+from typing import Protocol, TypeAlias
 
-from ..rotation import Quat, Vec3
+from ..rotation import Vec3
 from ..signals import Cue, StageLimits, VehicleState
 from .attitude import AttitudeRotation
 from .blend import BlendRotation
@@ -18,12 +18,8 @@ from .parameters import (
 )
 from .stage import StageCueing
 
-
-class RotationMethod(Protocol):
-    """How the sphere follows the vehicle."""
-
-    def step(self, vehicle: VehicleState) -> tuple[Quat, Vec3]:
-        """Orientation q_WS and rate w_WS_W (rad/s) for this vehicle state."""
+RotationMethod: TypeAlias = AttitudeRotation | BlendRotation | ClassicalRotation | ForceRotation
+"""How the sphere follows the vehicle: `step` gives orientation q_WS and rate w_WS_W (rad/s) for a vehicle state."""
 
 
 class Cues(Protocol):
@@ -46,7 +42,8 @@ class Cueing:
     def step(self, vehicle: VehicleState) -> Cue:
         """Cue for this vehicle state."""
         q_WS, w_WS_W = self._rotation.step(vehicle)
-        return Cue(vehicle.time, q_WS, w_WS_W, *self._stage.step(q_WS, w_WS_W, vehicle.f_B))
+        p_WS_W, v_WS_W, a_WS_W = self._stage.step(q_WS, w_WS_W, vehicle.f_B)
+        return Cue(vehicle.time, q_WS, w_WS_W, p_WS_W, v_WS_W, a_WS_W)
 
 
 def build(method: MethodParameters, stage: StageParameters, limits: StageLimits, head_S: Vec3, dt: float) -> Cueing:

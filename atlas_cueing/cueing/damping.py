@@ -29,12 +29,14 @@ class DampedVector:
 
     def __init__(self, omega: float, dt: float, x: Vec3) -> None:
         """Begin with the lasting vector x; omega in rad/s, dt in s."""
-        self._step = CriticalDamping(omega, dt).step
+        self._damping = CriticalDamping(omega, dt)
         self.x, self.v = x, ZERO
 
     def step(self, target: Vec3) -> Vec3:
         """The vector one step on."""
-        (x, y, z), (vx, vy, vz), step = self.x, self.v, self._step
-        (x, vx), (y, vy), (z, vz) = step(x, vx, target[0]), step(y, vy, target[1]), step(z, vz, target[2])
+        damping, before, rate = self._damping, self.x, self.v
+        x, vx = damping.step(before[0], rate[0], target[0])
+        y, vy = damping.step(before[1], rate[1], target[1])
+        z, vz = damping.step(before[2], rate[2], target[2])
         self.x, self.v = (x, y, z), (vx, vy, vz)
         return self.x

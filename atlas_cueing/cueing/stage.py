@@ -5,7 +5,7 @@ sphere's own turning gives alpha x r + w x (w x r) of it; the rest is asked of t
 planner can (`horizon`, `onset`).
 """
 
-from typing import Protocol
+from typing import TypeAlias
 
 from ..rotation import ZERO, Quat, Vec3, add, cross, flip, rotate, scale, subtract
 from ..signals import STANDARD_GRAVITY, StageLimits
@@ -16,11 +16,8 @@ from .parameters import StageParameters
 _GRAVITY_W: Vec3 = (0.0, 0.0, -STANDARD_GRAVITY)
 
 
-class StageAxis(Protocol):
-    """One axis of the stage."""
-
-    def step(self, demand: float) -> tuple[float, float, float]:
-        """Position (m), velocity and acceleration after one tick of a demanded acceleration (m/s^2)."""
+StageAxis: TypeAlias = HorizonAxis | OnsetFilter
+"""One axis of the stage: `step` gives position (m), velocity and acceleration one tick on, for a demand in m/s^2."""
 
 
 class StageCueing:
@@ -28,22 +25,30 @@ class StageCueing:
 
     def __init__(self, dt: float, parameters: StageParameters, limits: StageLimits, head_S: Vec3) -> None:
         """head_S: the rider's head from the sphere centre, m, frame S; dt in s."""
-        self._dt, self._gain, self._head = dt, parameters.force_gain, head_S
-        self._axes = [_axis(i, dt, parameters, limits) for i in range(3)]
+        self._dt, self._gain = dt, parameters.force_gain
+        self._head, self._centred = head_S, head_S == ZERO
+        self._axes: tuple[StageAxis, StageAxis, StageAxis] = (
+            _axis(0, dt, parameters, limits),
+            _axis(1, dt, parameters, limits),
+            _axis(2, dt, parameters, limits),
+        )
         self._w_before: Vec3 | None = None
 
     def step(self, q_WS: Quat, w_WS_W: Vec3, f_B: Vec3) -> tuple[Vec3, Vec3, Vec3]:
         """Position (m), velocity (m/s) and acceleration (m/s^2) in W."""
         wanted = add(rotate(q_WS, flip(f_B)), _GRAVITY_W)
         lacking = subtract(wanted, self._turning(q_WS, w_WS_W))
-        (one, two, three), gain = self._axes, self._gain
-        x, y, z = one.step(gain[0] * lacking[0]), two.step(gain[1] * lacking[1]), three.step(gain[2] * lacking[2])
+        gain, axes = self._gain, self._axes
+        x = axes[0].step(gain[0] * lacking[0])
+        y = axes[1].step(gain[1] * lacking[1])
+        z = axes[2].step(gain[2] * lacking[2])
         return (x[0], y[0], z[0]), (x[1], y[1], z[1]), (x[2], y[2], z[2])
 
     def _turning(self, q_WS: Quat, w_WS_W: Vec3) -> Vec3:
         """Acceleration of the head (W) that the sphere's turning makes."""
-        before, self._w_before = self._w_before or w_WS_W, w_WS_W
-        if self._head == ZERO:
+        before = w_WS_W if self._w_before is None else self._w_before
+        self._w_before = w_WS_W
+        if self._centred:
             return ZERO
         r = rotate(q_WS, self._head)
         alpha = scale(1.0 / self._dt, subtract(w_WS_W, before))

@@ -54,7 +54,8 @@ LIVE_TOPICS = (*TOPICS[:-1], TIMING, TOPICS[-1])
 
 def tick_row(tick: Tick) -> tuple[float, ...]:
     """All numbers of a tick in the order of the first four topics of `TOPICS`."""
-    return _vehicle_row(tick.vehicle) + _cue_row(tick.cue) + _motion_row(tick.motion) + _wheel_row(tick.wheels)
+    motion = tick.motion
+    return _vehicle_row(tick.vehicle) + _cue_row(tick.cue) + _turn_row(motion) + _stage_row(motion) + _wheel_row(tick.wheels)
 
 
 # Written out, since unpacking one vector after the other takes three times as long where the code is compiled.
@@ -67,15 +68,17 @@ def _vehicle_row(vehicle: VehicleState) -> tuple[float, ...]:
 
 def _cue_row(cue: Cue) -> tuple[float, ...]:
     q, w, p, v, a = cue.q_WS, cue.w_WS_W, cue.p_WS_W, cue.v_WS_W, cue.a_WS_W
-    turning = (cue.time, q[0], q[1], q[2], q[3], w[0], w[1], w[2])
-    return (*turning, p[0], p[1], p[2], v[0], v[1], v[2], a[0], a[1], a[2])
+    return (cue.time, q[0], q[1], q[2], q[3], w[0], w[1], w[2], p[0], p[1], p[2], v[0], v[1], v[2], a[0], a[1], a[2])
 
 
-def _motion_row(motion: Motion) -> tuple[float, ...]:
-    q, w, alpha, limited = motion.q_WS, motion.w_WS_W, motion.alpha_WS_W, motion.limited
-    p, v, a = motion.p_WS_W, motion.v_WS_W, motion.a_WS_W
-    turning = (motion.time, q[0], q[1], q[2], q[3], w[0], w[1], w[2], alpha[0], alpha[1], alpha[2])
-    return (*turning, p[0], p[1], p[2], v[0], v[1], v[2], a[0], a[1], a[2], limited[0], limited[1])
+def _turn_row(motion: Motion) -> tuple[float, ...]:
+    q, w, alpha = motion.q_WS, motion.w_WS_W, motion.alpha_WS_W
+    return (motion.time, q[0], q[1], q[2], q[3], w[0], w[1], w[2], alpha[0], alpha[1], alpha[2])
+
+
+def _stage_row(motion: Motion) -> tuple[float, ...]:
+    p, v, a, limited = motion.p_WS_W, motion.v_WS_W, motion.a_WS_W, motion.limited
+    return (p[0], p[1], p[2], v[0], v[1], v[2], a[0], a[1], a[2], limited[0], limited[1])
 
 
 def _wheel_row(wheels: WheelSpeeds) -> tuple[float, ...]:

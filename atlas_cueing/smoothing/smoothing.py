@@ -1,9 +1,9 @@
 """The whole of smoothing: sphere and stage side by side."""
 
-from math import hypot, isfinite
+from math import inf, sqrt
 
 from ..errors import PlanningError
-from ..rotation import Mat3
+from ..rotation import Mat3, norm
 from ..signals import Cue, Motion, StageLimits, WheelLimits
 from .sphere import SphereSmoothing
 from .stage import StageSmoothing
@@ -77,5 +77,6 @@ class Smoothing:
 
 def _is_orientation(cue: Cue) -> bool:
     """Whether the cue's rotation can be followed at all."""
-    rate = hypot(*cue.w_WS_W)
-    return isfinite(cue.time) and abs(hypot(*cue.q_WS) - 1.0) <= _UNIT and rate <= _ABSURD_RATE
+    w, x, y, z = cue.q_WS
+    unit = abs(sqrt(w * w + x * x + y * y + z * z) - 1.0) <= _UNIT
+    return unit and -inf < cue.time < inf and norm(cue.w_WS_W) <= _ABSURD_RATE

@@ -47,7 +47,8 @@ class SphereSmoothing:
         """Start at rest. dt in s; the maps are J^-1 (rad/s of wheels per rad/s of sphere) and J."""
         self._dt = dt
         self._wheels_from_sphere, self._sphere_from_wheels = wheels_from_sphere, sphere_from_wheels
-        self._axes = [Axis(dt, *limit) for limit in zip(limits.speed, limits.acceleration, limits.jerk, strict=True)]
+        one, two, three = zip(limits.speed, limits.acceleration, limits.jerk, strict=True)
+        self._axes = Axis(dt, *one), Axis(dt, *two), Axis(dt, *three)
         self._braking, self._braking_jerk = self._reserve(limits.acceleration), self._reserve(limits.jerk)
         self._speed, self._acceleration = ZERO, ZERO
         self._left, self._cue_speed = IDENTITY, ZERO
@@ -61,11 +62,11 @@ class SphereSmoothing:
         """Follow the cue for one tick; whether the wheels gave it. Raises PlanningError and stays where it is."""
         to_go = self._to_go(cue)
         angle = norm(to_go)
-        (u1, u2, u3), (a1, a2, a3) = self._demand(cue, to_go, angle)
-        (one, two, three), speed, acceleration = self._axes, self._speed, self._acceleration
-        x = one.towards(speed[0], acceleration[0], u1, a1)
-        y = two.towards(speed[1], acceleration[1], u2, a2)
-        z = three.towards(speed[2], acceleration[2], u3, a3)
+        u, a = self._demand(cue, to_go, angle)
+        axes, speed, acceleration = self._axes, self._speed, self._acceleration
+        x = axes[0].towards(speed[0], acceleration[0], u[0], a[0])
+        y = axes[1].towards(speed[1], acceleration[1], u[1], a[1])
+        z = axes[2].towards(speed[2], acceleration[2], u[2], a[2])
         self._fly(x, y, z)
         return x.met and y.met and z.met and angle <= _MET_ANGLE
 

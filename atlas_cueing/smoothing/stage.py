@@ -9,7 +9,7 @@ Between ticks a step stays within A dt^2 / 8 of the line between its ends, so th
 stop itself is checked in continuous time.
 """
 
-from math import copysign, isfinite
+from math import copysign, inf, isfinite
 
 from ..errors import PlanningError
 from ..rotation import Vec3
@@ -43,7 +43,8 @@ class RailAxis:
         """Follow a cue for one tick; whether it was given. Any input is safe."""
         to_go = p - (self.p + 0.5 * self._axis.dt * (self.v + v))
         try:
-            step = self._axis.towards(self.v, self.a, *self._demand(to_go, v, a))
+            v_target, a_target = self._demand(to_go, v, a)
+            step = self._axis.towards(self.v, self.a, v_target, a_target)
             if not self._is_certified(self.p + step.displacement, step):
                 step = self._axis.stopping(self.v, self.a)
         except PlanningError:
@@ -53,7 +54,7 @@ class RailAxis:
 
     def _demand(self, to_go: float, v: float, a: float) -> tuple[float, float]:
         """Speed and acceleration asked for at the end of the tick."""
-        if not isfinite(to_go + v + a):
+        if not -inf < to_go + v + a < inf:
             return 0.0, 0.0
         closing, slope = approach(abs(to_go), _GAIN, self._braking, self._braking_jerk)
         closing = copysign(closing, to_go)
@@ -78,8 +79,8 @@ class StageSmoothing:
 
     def __init__(self, dt: float, limits: StageLimits) -> None:
         """Start at rest in the centre; dt in s."""
-        each = zip(limits.travel, limits.speed, limits.acceleration, limits.jerk, strict=True)
-        self._axes = [RailAxis(dt, *limit) for limit in each]
+        x, y, z = zip(limits.travel, limits.speed, limits.acceleration, limits.jerk, strict=True)
+        self._axes = RailAxis(dt, *x), RailAxis(dt, *y), RailAxis(dt, *z)
 
     def start(self, cue: Cue) -> None:
         """Begin at rest in the cue's position, as far as it lies in the travel."""
@@ -88,8 +89,10 @@ class StageSmoothing:
 
     def step(self, cue: Cue) -> bool:
         """Follow the cue for one tick; whether all of it was given. Any cue is safe."""
-        (x, y, z), p, v, a = self._axes, cue.p_WS_W, cue.v_WS_W, cue.a_WS_W
-        met_x, met_y, met_z = x.step(p[0], v[0], a[0]), y.step(p[1], v[1], a[1]), z.step(p[2], v[2], a[2])
+        axes, p, v, a = self._axes, cue.p_WS_W, cue.v_WS_W, cue.a_WS_W
+        met_x = axes[0].step(p[0], v[0], a[0])
+        met_y = axes[1].step(p[1], v[1], a[1])
+        met_z = axes[2].step(p[2], v[2], a[2])
         return met_x and met_y and met_z
 
     @property

@@ -82,20 +82,20 @@ def approach(distance: float, gain: float, a_max: float, j_max: float) -> tuple[
     the same slope there, sqrt(2 A (d - A / 2 gain^2)); and the speed from which the jerk-limited stop from a = 0 takes d,
     d = v sqrt(v / J) below v = A^2 / J and d = v/2 (v / A + A / J) above.
     """
-    if distance * gain**2 <= a_max and distance * gain**3 <= j_max:
+    if distance * gain * gain <= a_max and distance * gain * gain * gain <= j_max:
         return gain * max(distance, 0.0), gain
     return min(_by_acceleration(distance, gain, a_max), _by_jerk(distance, a_max, j_max))
 
 
 def _by_acceleration(distance: float, gain: float, a_max: float) -> tuple[float, float]:
-    if distance * gain**2 <= a_max:
+    if distance * gain * gain <= a_max:
         return gain * distance, gain
-    speed = sqrt(2.0 * a_max * (distance - 0.5 * a_max / gain**2))
+    speed = sqrt(2.0 * a_max * (distance - 0.5 * a_max / (gain * gain)))
     return speed, a_max / speed
 
 
 def _by_jerk(distance: float, a_max: float, j_max: float) -> tuple[float, float]:
-    if distance < a_max**3 / j_max**2:
+    if distance * j_max * j_max < a_max * a_max * a_max:
         speed = (distance * distance * j_max) ** (1.0 / 3.0)
         return speed, 2.0 * speed / (3.0 * distance)
     half = 0.5 * a_max * a_max / j_max

@@ -26,8 +26,8 @@ class Bounds:
     def objection(self, state: VehicleState, height: float) -> str:
         """Why a state at `height` (m above ground) is not believable; empty when it is. NaN never is."""
         force, rate = norm(state.f_B), norm(state.w_NB_B)
-        q = state.q_NB
-        if force <= self.force and rate <= self.rate and -self.depth <= height <= self.height and sum(q) == sum(q):
+        turn = state.q_NB[0] + state.q_NB[1] + state.q_NB[2] + state.q_NB[3]
+        if force <= self.force and rate <= self.rate and -self.depth <= height <= self.height and turn == turn:
             return ""
         return self._reason(force, rate, height)
 
