@@ -1,7 +1,10 @@
 """From a block of ticks to the bytes and the index of one MCAP chunk, without a loop over messages."""
 
+import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from operator import itemgetter
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,8 +24,7 @@ _MOTION = int(_STARTS[2])  # then time, q, w, alpha, p, v, a
 _Q, _W, _ALPHA, _P, _A = (slice(_MOTION + start, _MOTION + end) for start, end in ((1, 5), (5, 8), (8, 11), (11, 14), (17, 20)))
 
 
-@dataclass(frozen=True, slots=True)
-class Extra:
+class Extra(NamedTuple):
     """A message that does not come every tick: it stands after the first `ticks` ticks of its chunk."""
 
     ticks: int
@@ -69,20 +71,24 @@ class ChunkEncoder:
             self._template[name] = flat_template(channels[name], size)
             self._offsets[name] = offset
             offset += flat_dtype(size).itemsize
+        self._ticks = repeat(self._template, 0)  # used again for every chunk: new memory costs more than what is written to it
 
     def encode(self, rows: Array, times: Times, statuses: Sequence[Extra]) -> EncodedChunk:
         """Chunk of rows (n, ROW or LIVE_ROW) in order of time, with log times (n,) in ns; /felt and /tf are made from them."""
         ticks = self._encode_ticks(rows, times)
-        extras = sorted([*self._transforms(rows, times), *statuses], key=lambda extra: (extra.ticks, extra.log_time))
+        extras = self._transforms(rows, times)
+        if statuses:
+            extras = sorted([*extras, *statuses], key=itemgetter(0, 2))  # by place and log time
         return EncodedChunk(_merge(ticks, extras), self._index(ticks, times, extras))
 
     def _encode_ticks(self, rows: Array, times: Times) -> Records:
-        """One structured record a tick with all its messages."""
-        ticks = repeat(self._template, len(rows))
-        full = np.hstack([rows, felt_columns(rows, self._head_S)]) if "/felt" in self._columns else rows
+        """One structured record a tick with all its messages, until the next call."""
+        if len(self._ticks) < len(rows):
+            self._ticks = repeat(self._template, len(rows))
+        ticks = self._ticks[: len(rows)]
         for name, columns in self._columns.items():
             ticks[name]["log_time"] = ticks[name]["publish_time"] = times
-            put(ticks[name], full[:, columns])
+            put(ticks[name], felt_columns(rows, self._head_S) if name == "/felt" else rows[:, columns])
         return ticks
 
     def _transforms(self, rows: Array, times: Times) -> list[Extra]:
@@ -94,22 +100,23 @@ class ChunkEncoder:
         self._tf_slot = float(slots[-1])
         records = repeat(self._tf_template, len(due))
         put_transforms(records, times[due], rows[due, _Q], rows[due, _P])
-        log_time, ticks = times[due].tolist(), (due + 1).tolist()
-        return [Extra(ticks[k], self._tf_channel, log_time[k], records[k].tobytes()) for k in range(len(due))]
+        data, size = records.tobytes(), records.itemsize
+        each = [data[start : start + size] for start in range(0, len(data), size)]
+        return list(map(Extra, (due + 1).tolist(), itertools.repeat(self._tf_channel), times[due].tolist(), each))
 
     def _index(self, ticks: Records, times: Times, extras: list[Extra]) -> dict[int, NDArray[np.uint64]]:
         """Where each message starts: a tick is pushed back by the extra messages before it, and the other way round."""
-        sizes = np.cumsum([0] + [len(extra.record) for extra in extras])
-        before = np.array([extra.ticks for extra in extras], dtype=np.int64)
+        places, channels, log_times, records = zip(*extras, strict=True) if extras else ((), (), (), ())
+        sizes = np.cumsum([0, *map(len, records)])
+        before, of_channel = np.array(places, dtype=np.int64), np.array(channels, dtype=np.int64)
         bases = np.arange(len(ticks)) * ticks.itemsize + sizes[np.searchsorted(before, np.arange(len(ticks)), side="right")]
         index = {}
         for name, offset in self._offsets.items() if len(ticks) else ():
             index[self._channels[name]] = np.stack([times, (bases + offset).astype(np.uint64)], axis=1)
-        for channel in sorted({extra.channel for extra in extras}):
-            mine = [k for k, extra in enumerate(extras) if extra.channel == channel]
-            starts = before[mine] * ticks.itemsize + sizes[mine]
-            log_time = np.array([extras[k].log_time for k in mine], dtype=np.uint64)
-            index[channel] = np.stack([log_time, starts.astype(np.uint64)], axis=1)
+        starts = (before * ticks.itemsize + sizes[:-1]).astype(np.uint64)
+        entries = np.stack([np.array(log_times, dtype=np.uint64), starts], axis=1)
+        for channel in sorted(set(channels)):
+            index[channel] = entries[of_channel == channel]
         return index
 
 
@@ -123,9 +130,10 @@ def felt_columns(rows: Array, head_S: Vec3) -> Array:
 
 def _merge(ticks: Records, extras: list[Extra]) -> bytes:
     """The ticks' bytes with each extra record at its place."""
-    data, pieces, start = ticks.tobytes(), [], 0
-    for extra in extras:
-        end = extra.ticks * ticks.itemsize
-        pieces += [data[start:end], extra.record]
+    data, start = ticks.view(np.uint8).data, 0
+    pieces: list[bytes | memoryview] = []
+    for place, _, _, record in extras:
+        end = place * ticks.itemsize
+        pieces += [data[start:end], record]
         start = end
     return b"".join([*pieces, data[start:]])

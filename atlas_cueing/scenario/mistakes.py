@@ -4,6 +4,7 @@ import re
 from collections.abc import Collection, Sequence
 from datetime import date, time
 from difflib import get_close_matches
+from functools import lru_cache
 from typing import Any, TypeAlias
 
 from pydantic import ValidationError
@@ -60,6 +61,7 @@ def _related(key: Key, path: Key) -> bool:
     return key[: len(path)] == path or path[: len(key)] == key
 
 
+@lru_cache(maxsize=64)  # the keys of a sweep, again and again
 def dotted(key: Key) -> str:
     """`vehicle.input.0.value`: the key as `--set` takes it; a part that would not print in one line is quoted."""
     return ".".join(text if (text := str(part)).isprintable() else repr(part) for part in key)

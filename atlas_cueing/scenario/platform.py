@@ -1,6 +1,6 @@
 """The platform file: geometry, limits and where the rider's head is."""
 
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Annotated, TypeAlias
 
@@ -46,7 +46,12 @@ class WheelTable(Table):
 
     def wheel(self) -> OmniWheel:
         """The wheel with unit directions and a drive exactly tangent to the sphere."""
-        return OmniWheel.along(self.contact, self.drive, self.radius_m)
+        return _wheel(self.contact, self.drive, self.radius_m)
+
+
+@lru_cache(maxsize=64)  # of ten thousand platforms that a sweep makes, few have wheels of their own
+def _wheel(contact: Vec3, drive: Vec3, radius: float) -> OmniWheel:
+    return OmniWheel.along(contact, drive, radius)
 
 
 class WheelLimitsTable(Table):

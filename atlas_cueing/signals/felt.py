@@ -19,9 +19,10 @@ def felt(
     q_WS (n, 4); w_WS_W rad/s, alpha_WS_W rad/s^2, a_WS_W m/s^2 (n, 3) in W; head_S (3,) m from the sphere centre in S.
     """
     q, w, alpha, a, head = (np.asarray(x, dtype=np.float64) for x in (q_WS, w_WS_W, alpha_WS_W, a_WS_W, head_S))
-    r = _turn(q, np.broadcast_to(head, w.shape))
-    force_W = a + _cross(alpha, r) + _cross(w, _cross(w, r))
-    force_W[:, 2] += STANDARD_GRAVITY
+    force_W = a + np.array([0.0, 0.0, STANDARD_GRAVITY])
+    if head.any():
+        r = _turn(q, np.broadcast_to(head, w.shape))
+        force_W = force_W + _cross(alpha, r) + _cross(w, _cross(w, r))
     to_cabin = q * np.array([1.0, -1.0, -1.0, -1.0])
     return _turn(to_cabin, force_W) * _FLU_TO_FRD, _turn(to_cabin, w) * _FLU_TO_FRD
 
