@@ -13,7 +13,7 @@ Plain floats are 10 to 50 times faster here than arrays of three; scipy's Rotati
 """
 
 from math import asin, atan2, cos, pi, sin, sqrt
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 Vec3: TypeAlias = tuple[float, float, float]
 Quat: TypeAlias = tuple[float, float, float, float]
@@ -22,7 +22,7 @@ Mat3: TypeAlias = tuple[Vec3, Vec3, Vec3]
 ZERO: Vec3 = (0.0, 0.0, 0.0)
 IDENTITY: Quat = (1.0, 0.0, 0.0, 0.0)
 
-_SMALL_ANGLE = 1e-4  # rad; below it the series are exact to double precision (next term: angle^4 / 1920 < 1e-19)
+_SMALL_ANGLE: Final = 1e-4  # rad; below it the series are exact to double precision (next term: angle^4 / 1920 < 1e-19)
 
 
 def add(a: Vec3, b: Vec3) -> Vec3:

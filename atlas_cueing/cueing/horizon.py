@@ -8,6 +8,7 @@ there is none, to its end, where the stage stands.
 
 from itertools import pairwise
 
+from .horizon_law import Plan
 from .horizon_problem import AxisLimits, HorizonProblem
 from .horizon_share import UsefulShare
 from .onset import OnsetFilter, demand_bound
@@ -40,8 +41,9 @@ class HorizonAxis:
         self.problem = HorizonProblem([ticks * dt for ticks in self._ticks], onset, parameters.fade, limits)
         self._to_next = delay % self._period
         self._p = self._v = self._a = 0.0
-        self._jerks: list[float] = []  # of the blocks still ahead, the last first
-        self._left: list[int] = []  # their ticks
+        self._course: Plan | None = None  # what is flown; none while the stage stands
+        self._block = self._left = 0  # where on it: the block, and its ticks still ahead
+        self._jerk = 0.0  # of this block
 
     def step(self, demand: float) -> tuple[float, float, float]:
         """Position, velocity and acceleration after one tick; a demand that is there at the start counts as lasting."""
@@ -56,24 +58,31 @@ class HorizonAxis:
 
     def _plan(self, demand: float) -> None:
         """Begin a new plan where the stage was a tick ago; without one the old plan goes on."""
-        jerks = self.problem.solve(self._p, self._v, self._a, demand)
-        if jerks is not None:
-            self._jerks, self._left = jerks[::-1], self._ticks[::-1]
+        plan = self.problem.solve(self._p, self._v, self._a, demand)
+        if plan is not None:
+            self._begin(plan, 0)
+
+    def _begin(self, plan: Plan, block: int) -> None:
+        """The next tick is the first one of a block of the plan."""
+        self._course, self._block = plan, block
+        self._left, self._jerk = self._ticks[block], plan.jerk(block)
 
     def _fly(self) -> None:
         """One tick along the plan."""
-        if not self._left:
+        plan = self._course
+        if plan is None:
             return
-        jerk, dt = self._jerks[-1], self._dt
+        jerk, dt = self._jerk, self._dt
         self._p += dt * (self._v + dt * (self._a / 2.0 + dt * jerk / 6.0))
         self._v += dt * (self._a + dt * jerk / 2.0)
         self._a += dt * jerk
-        self._left[-1] -= 1
-        if not self._left[-1]:
-            self._left.pop()
-            self._jerks.pop()
-        if not self._left:
-            self._v = self._a = 0.0  # but for rounding they are
+        self._left -= 1
+        if self._left:
+            return
+        if self._block + 1 < len(self._ticks):
+            self._begin(plan, self._block + 1)
+        else:
+            self._course, self._v, self._a = None, 0.0, 0.0  # but for rounding they are at rest
 
 
 def planning_ticks(dt: float, rate: float) -> int:

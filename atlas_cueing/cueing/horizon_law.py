@@ -19,8 +19,26 @@ Array = NDArray[np.float64]
 State = tuple[float, float, float, float]
 
 
+class Plan:
+    """The jerk (m/s^3) of each block, linear in a state: worked out when asked for, as few get beyond the first."""
+
+    def __init__(self, rows: list[State], state: State) -> None:
+        """Block k has the jerk rows[k] . state."""
+        self._rows, self._state = rows, state
+
+    def jerk(self, block: int) -> float:
+        """That of one block."""
+        row, state = self._rows[block], self._state
+        return row[0] * state[0] + row[1] * state[1] + row[2] * state[2] + row[3] * state[3]
+
+    @property
+    def jerks(self) -> list[float]:
+        """Those of all blocks."""
+        return [self.jerk(block) for block in range(len(self._rows))]
+
+
 class UnlimitedPlan:
-    """Jerks without limits, and whether the limits would have changed them."""
+    """The plan without limits, and whether the limits would have changed it."""
 
     def __init__(self, durations: Sequence[float], cost: Array, bounded: Array, bound: Array) -> None:
         """Blocks of these durations (s); cost, bounded and bound as `horizon_problem` makes them for (p, v, a, d, x)."""
@@ -35,10 +53,9 @@ class UnlimitedPlan:
         rows = (np.diff(ends, axis=0) / np.asarray(durations)[:, None]).tolist()
         self._jerk: list[State] = [(p, v, a, d) for p, v, a, d in rows]
 
-    def jerks(self, state: State) -> list[float]:
-        """Jerk (m/s^3) of each block from p, v, a and the demand now."""
-        p, v, a, d = state
-        return [row[0] * p + row[1] * v + row[2] * a + row[3] * d for row in self._jerk]
+    def plan(self, state: State) -> Plan:
+        """The plan from p, v, a and the demand now."""
+        return Plan(self._jerk, state)
 
     def is_free(self, state: State) -> bool:
         """Whether it keeps every limit; most states are settled by a bound on all of them at once."""

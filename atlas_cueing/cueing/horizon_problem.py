@@ -25,7 +25,7 @@ import daqp
 import numpy as np
 from numpy.typing import NDArray
 
-from .horizon_law import UnlimitedPlan
+from .horizon_law import Plan, State, UnlimitedPlan
 
 Array: TypeAlias = NDArray[np.float64]
 AxisLimits: TypeAlias = tuple[float, float, float, float]  # travel m, speed m/s, acceleration m/s^2, jerk m/s^3
@@ -68,14 +68,14 @@ class HorizonProblem:
             raise ValueError(f"a stage problem that the solver takes; got limits {limits}, omega {omega} (exit flag {taken})")
         self._solver.settings = {"iter_limit": _ITERATIONS}
 
-    def solve(self, p: float, v: float, a: float, demand: float) -> list[float] | None:
-        """Jerk (m/s^3) of each block, from state p, v, a and the demand now (m/s^2); None when no plan was found."""
+    def solve(self, p: float, v: float, a: float, demand: float) -> Plan | None:
+        """The plan from state p, v, a and the demand now (m/s^2); None when none was found."""
         state = (p, v, a, demand)
         if self.unlimited.is_free(state):
-            return self.unlimited.jerks(state)
+            return self.unlimited.plan(state)
         return self._within_limits(state)
 
-    def _within_limits(self, state: tuple[float, float, float, float]) -> list[float] | None:
+    def _within_limits(self, state: State) -> Plan | None:
         """The plan that daqp finds, which takes some ten times as long."""
         of_now = self._from_now @ np.array(state)
         offset, linear = of_now[: self._bounds], of_now[self._bounds :]
@@ -85,7 +85,8 @@ class HorizonProblem:
         if flag != _SOLVED:
             return None
         ends = [state[2], *x.tolist(), 0.0]
-        return [(end - begin) * factor for begin, end, factor in zip(ends, ends[1:], self._jerk_from_a, strict=False)]
+        jerks = [(end - begin) * factor for begin, end, factor in zip(ends, ends[1:], self._jerk_from_a, strict=False)]
+        return Plan([(jerk, 0.0, 0.0, 0.0) for jerk in jerks], (1.0, 0.0, 0.0, 0.0))
 
 
 # A form is the row of factors that gives a quantity from (p, v, a, d, x): the state now, the demand now, the unknowns.

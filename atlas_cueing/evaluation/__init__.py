@@ -1,16 +1,22 @@
-"""Figures of a run, computed from its logged columns."""
+"""Figures of a run, computed from its logged columns, in one pass."""
 
-from .consistency import consistency, reintegrate
+from .consistency import Consistency, consistency, reintegrate
 from .deviation import vehicle_attitude
-from .flight import Columns, Flight
-from .limits import limit_use, violations
-from .metrics import metrics
+from .flight import BLOCK_TICKS, TOPICS, Columns, Flight, gathered
+from .limits import LimitUse, limit_use, violations
+from .metrics import Metrics, metrics
 from .ridden import ridden
 
 __all__ = [
+    "BLOCK_TICKS",
+    "TOPICS",
     "Columns",
+    "Consistency",
     "Flight",
+    "LimitUse",
+    "Metrics",
     "consistency",
+    "gathered",
     "limit_use",
     "metrics",
     "reintegrate",

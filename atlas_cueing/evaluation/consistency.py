@@ -3,9 +3,36 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .flight import Array, Flight
+from .flight import Array, Flight, Tail, gathered
 from .quaternions import accumulated, exp, geodesic
-from .statistics import by_rows, largest
+from .statistics import Peaks
+
+
+class Consistency:
+    """How well the logged quantities agree with each other, block by block."""
+
+    def __init__(self, wheels_from_sphere: ArrayLike, sphere_from_wheels: ArrayLike) -> None:
+        """Of no ticks yet; the matrices are those of `consistency`."""
+        self._from_sphere = np.asarray(wheels_from_sphere, dtype=np.float64).T
+        self._course = _Course(sphere_from_wheels)
+        self._speed, self._acceleration = Peaks(), Peaks()
+        self._final, self._largest = 0.0, 0.0
+
+    def add(self, block: Flight) -> None:
+        """Take in the ticks that follow."""
+        self._speed.add(block.wheel_speed - block.motion_w_W @ self._from_sphere)
+        self._acceleration.add(block.wheel_acceleration - block.motion_alpha_W @ self._from_sphere)
+        drift = geodesic(self._course.orientations(block), block.motion_q_WS)
+        self._final, self._largest = float(drift[-1]), float(np.maximum(self._largest, np.max(drift)))
+
+    def figures(self) -> dict[str, float]:
+        """Those of `consistency`."""
+        return {
+            "wheel_speed_mismatch_max_rad_s": self._speed.largest,
+            "wheel_acceleration_mismatch_max_rad_s2": self._acceleration.largest,
+            "orientation_drift_final_rad": self._final,
+            "orientation_drift_max_rad": self._largest,
+        }
 
 
 def consistency(flight: Flight, wheels_from_sphere: ArrayLike, sphere_from_wheels: ArrayLike) -> dict[str, float]:
@@ -16,19 +43,7 @@ def consistency(flight: Flight, wheels_from_sphere: ArrayLike, sphere_from_wheel
 
     The matrices are (3, 3): wheel speeds = wheels_from_sphere @ w_WS_W (J^-1, Eq. 22), and back (J, Eq. 18).
     """
-    from_sphere = np.asarray(wheels_from_sphere, dtype=np.float64).T
-
-    def mismatch(wheels: Array, sphere: Array) -> Array:
-        """Logged wheels (n, 3) less J^-1 times the sphere's rate or acceleration (n, 3)."""
-        return wheels - sphere @ from_sphere
-
-    drift = by_rows(geodesic, reintegrate(flight, sphere_from_wheels), flight.motion_q_WS)
-    return {
-        "wheel_speed_mismatch_max_rad_s": largest(by_rows(mismatch, flight.wheel_speed, flight.motion_w_W)),
-        "wheel_acceleration_mismatch_max_rad_s2": largest(by_rows(mismatch, flight.wheel_acceleration, flight.motion_alpha_W)),
-        "orientation_drift_final_rad": float(drift[-1]) if len(drift) else 0.0,
-        "orientation_drift_max_rad": largest(drift),
-    }
+    return gathered(Consistency(wheels_from_sphere, sphere_from_wheels), flight)
 
 
 def reintegrate(flight: Flight, sphere_from_wheels: ArrayLike) -> Array:
@@ -37,17 +52,38 @@ def reintegrate(flight: Flight, sphere_from_wheels: ArrayLike) -> Array:
     The turn over a tick is the integral of the cubic through the logged speeds and accelerations at its ends, plus the
     Magnus commutator of `rotation.integrate_base`: fourth order in the step.
     """
-    if not len(flight.time):
-        return np.empty((0, 4))
-    to_sphere = np.asarray(sphere_from_wheels, dtype=np.float64).T
+    course = _Course(sphere_from_wheels)
+    return np.concatenate([np.empty((0, 4)), *map(course.orientations, flight.blocks())])
 
-    def turns(h: Array, speed: Array, next_speed: Array, acceleration: Array, next_acceleration: Array) -> Array:
-        """Quaternions (n, 4) of the turns over steps h (n,), s, from wheel speeds and accelerations (n, 3) at both ends."""
-        w, next_w = speed @ to_sphere, next_speed @ to_sphere
-        slowing = (acceleration - next_acceleration) @ to_sphere
-        h = h[:, None]
-        return exp(0.5 * h * (w + next_w) + h * h / 12.0 * (slowing + np.cross(next_w, w)))
 
-    speed, acceleration = flight.wheel_speed, flight.wheel_acceleration
-    each = by_rows(turns, np.diff(flight.time), speed[:-1], speed[1:], acceleration[:-1], acceleration[1:])
-    return accumulated(flight.motion_q_WS[0], each)
+class _Course:
+    """The orientation as the wheels alone turn it on, block by block."""
+
+    def __init__(self, sphere_from_wheels: ArrayLike) -> None:
+        self._to_sphere = np.asarray(sphere_from_wheels, dtype=np.float64).T
+        self._tail = Tail(1)
+        self._last: Array | None = None
+
+    def orientations(self, block: Flight) -> Array:
+        """At the ticks that follow, (n, 4)."""
+        time, speed, acceleration = self._tail.joined(block.time, block.wheel_speed, block.wheel_acceleration)
+        turns = _turns(np.diff(time), speed @ self._to_sphere, acceleration @ self._to_sphere)
+        if self._last is None:
+            course = accumulated(block.motion_q_WS[0], turns)
+        else:
+            course = accumulated(self._last, turns)[1:]
+        self._last = course[-1].copy()
+        return course
+
+
+def _turns(h: Array, w: Array, alpha: Array) -> Array:
+    """Quaternions (n - 1, 4) of the turns over steps h (n - 1,), s, from rates and accelerations (n, 3) at their ends."""
+    h = h[:, None]
+    slowing = alpha[:-1] - alpha[1:]
+    return exp(0.5 * h * (w[:-1] + w[1:]) + h * h / 12.0 * (slowing + _cross(w[1:], w[:-1])))
+
+
+def _cross(a: Array, b: Array) -> Array:
+    """Vector products (n, 3), each component contiguous."""
+    (ax, ay, az), (bx, by, bz) = a.T, b.T
+    return np.array([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]).T

@@ -3,6 +3,7 @@
 from math import inf
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .flight import Array
 
@@ -10,8 +11,59 @@ WINDOW = 0.5
 """Largest delay that is looked for, s (assumed): several times what a rider takes for the same motion; at most a quarter of
 the record, so that most of it is compared at any shift."""
 
-_BLOCK = 1 << 13  # ticks a transform; the sum of the blocks' spectra is the spectrum of the sum
+MOST = 8192
+"""Ticks that a delay is looked for at most: `WINDOW` up to 16 kHz, and bounded memory whatever rate a log claims."""
+
+_TRANSFORM = 1 << 13  # values, at least; the sum of the spectra of pieces is the spectrum of the sum
 _FLAT = 1e-12  # of a correlation: shifts this close to the best fit as well (a ramp fits at any)
+_STILL = 1e-12  # of a variance: where no more is left in the overlap, what varies hangs over and there is nothing to compare
+_HALF = 1e-6  # ticks: where the window ends amid two ticks, rounding of the step does not decide between them
+
+
+class Correlation:
+    """`correlation` of two signals that come block by block.
+
+    Means and variances are from plain sums, of the signals less a constant c each: the mean of their first block. With m and s
+    the mean and standard deviation of all n values, the squares of the first B of them alone give n s^2 >= B (c - m)^2, so
+    (c - m)^2 / s^2 is at most n / B: over an hour at 1 kHz three of sixteen digits may cancel, and no more.
+    """
+
+    def __init__(self, dt: float, smallest: float = 0.0) -> None:
+        """Of no ticks yet; `dt` and `smallest` as in `correlation`."""
+        self._dt, self._smallest = dt, smallest
+        self._window = min(round(WINDOW / dt - _HALF), MOST) if _step(dt) else 0
+        size = 1 << (max(_TRANSFORM, 4 * self._window) - 1).bit_length()
+        self._v, self._p = _Sums(self._window), _Sums(self._window)
+        self._products = _Products(self._window, size)
+
+    def add(self, reference: Array, delayed: Array) -> None:
+        """Take in the values that follow, (n,) each."""
+        if len(reference):
+            self._products.add(self._v.centred(reference), self._p.centred(delayed))
+
+    def peak(self) -> tuple[float, float]:
+        """That of `correlation`."""
+        if not _step(self._dt) or not self._v.vary(self._smallest) or not self._p.vary(self._smallest):
+            return 0.0, 0.0
+        most = min(self._window, self._v.count // 4)
+        values = self._pearson(most)
+        if not np.all(np.isfinite(values)):
+            return 0.0, 0.0
+        shift = _best(values) - most
+        peak, offset = _peak(values, shift + most)
+        return min(max(peak, -1.0), 1.0), (shift + offset) * self._dt
+
+    def _pearson(self, most: int) -> Array:
+        """Pearson's correlation (2 most + 1,) of v[t] with p[t + shift] over the overlap, for shifts from -most to most."""
+        v, p = self._v, self._p
+        overlap = v.count - np.abs(np.arange(-most, most + 1))
+        sum_v, square_v = v.overlapping(most)
+        sum_p, square_p = (sums[::-1] for sums in p.overlapping(most))  # the other end hangs over
+        covariance = self._products.sums(most) - sum_v * sum_p / overlap
+        scatter_v, scatter_p = square_v - sum_v * sum_v / overlap, square_p - sum_p * sum_p / overlap
+        still = (scatter_v <= _STILL * v.scatter) | (scatter_p <= _STILL * p.scatter)
+        values: Array = np.where(still, 0.0, covariance / np.sqrt(np.where(still, 1.0, scatter_v * scatter_p)))
+        return values
 
 
 def correlation(reference: Array, delayed: Array, dt: float, smallest: float = 0.0) -> tuple[float, float]:
@@ -25,60 +77,91 @@ def correlation(reference: Array, delayed: Array, dt: float, smallest: float = 0
     (0, 0) when one of the signals does not vary (its standard deviation is at most `smallest`), when there is no overlap, and
     when the numbers are none.
     """
-    if not 0.0 < dt < inf:  # of a log whose times are none
-        return 0.0, 0.0
-    most = min(round(WINDOW / dt), len(reference) // 4)
-    if not _varies(reference, smallest) or not _varies(delayed, smallest):
-        return 0.0, 0.0
-    values = _pearson(_standardised(reference), _standardised(delayed), most)
-    if not np.all(np.isfinite(values)):
-        return 0.0, 0.0
-    shift = _best(values) - most
-    peak, offset = _peak(values, shift + most)
-    return min(max(peak, -1.0), 1.0), (shift + offset) * dt
+    signals = Correlation(dt, smallest)
+    signals.add(reference, delayed)
+    return signals.peak()
 
 
-def _varies(x: Array, smallest: float) -> bool:
-    if len(x) < 2:
-        return False
-    rounding = 1e-12 * float(np.max(np.abs(x)))
-    return float(np.std(x)) > max(smallest, rounding)
+def _step(dt: float) -> bool:
+    """Whether a time is the step of a log whose times are any."""
+    return 0.0 < dt < inf
 
 
-def _standardised(x: Array) -> Array:
-    centred: Array = x - np.mean(x)
-    return centred / np.std(centred)
+class _Sums:
+    """Sums of a signal's values and of their squares, also without some at an end; all less the mean of its first block."""
+
+    def __init__(self, window: int) -> None:
+        self.count, self._window = 0, window
+        self._centre, self._largest = 0.0, 0.0
+        self._sum, self._square = 0.0, 0.0
+        self._head: Array = np.empty(0)
+        self._tail: Array = np.empty(0)
+
+    def centred(self, x: Array) -> Array:
+        """Take in the values (n,) that follow; these values less the constant."""
+        if not self.count:
+            self._centre = float(np.mean(x))
+        self._largest = float(max(self._largest, np.max(x), -np.min(x)))
+        x = x - self._centre
+        self.count += len(x)
+        self._sum += float(np.sum(x))
+        self._square += float(np.einsum("i,i->", x, x))
+        if len(self._head) < self._window:
+            self._head = np.concatenate([self._head, x[: self._window]])[: self._window]
+        self._tail = np.concatenate([self._tail, x])[-self._window :] if len(x) < self._window else x[len(x) - self._window :]
+        return x
+
+    @property
+    def scatter(self) -> float:
+        """Sum of the squares of the departures from the mean."""
+        return self._square - self._sum * self._sum / self.count
+
+    def vary(self, smallest: float) -> bool:
+        """Whether the standard deviation is larger than `smallest`, and than rounding."""
+        if self.count < 2:
+            return False
+        least = max(smallest, 1e-12 * self._largest)
+        return self.scatter > self.count * least * least
+
+    def overlapping(self, most: int) -> tuple[Array, Array]:
+        """Sums of values and of squares, (2 most + 1,): without the first `most`, ... 2, 1, 0 and the last 1, 2, ... `most`."""
+        head, tail = self._head[:most], self._tail[::-1][:most]
+        return _without(self._sum, head, tail), _without(self._square, head * head, tail * tail)
 
 
-def _pearson(v: Array, p: Array, most: int) -> Array:
-    """Pearson's correlation (2 most + 1,) of v[t] with p[t + shift] over the overlap, for shifts from -most to most."""
-    overlap = len(v) - np.abs(np.arange(-most, most + 1))
-    # With a shift to the right the end of v and the beginning of p hang over.
-    mean_v, square_v = (np.concatenate([_without_head(x, most)[:0:-1], _without_head(x[::-1], most)]) for x in (v, v * v))
-    mean_p, square_p = (np.concatenate([_without_head(x[::-1], most)[:0:-1], _without_head(x, most)]) for x in (p, p * p))
-    covariance = _products(v, p, most) - mean_v * mean_p / overlap
-    variances = (square_v - mean_v * mean_v / overlap) * (square_p - mean_p * mean_p / overlap)
-    still = variances <= 1e-18 * len(v) ** 2  # what varies hangs over: there is nothing to compare
-    values: Array = np.where(still, 0.0, covariance / np.sqrt(np.where(still, 1.0, variances)))
-    return values
+def _without(total: float, head: Array, tail: Array) -> Array:
+    return total - np.concatenate([np.cumsum(head)[::-1], [0.0], np.cumsum(tail)])
 
 
-def _without_head(x: Array, most: int) -> Array:
-    """Sums of x without its first 0, 1, ... most values, (most + 1,)."""
-    return np.sum(x) - np.concatenate([[0.0], np.cumsum(x[:most])])
+class _Products:
+    """Sums over t of v[t] p[t + shift] for shifts up to a window either way, by transforms of pieces: n log(piece) operations.
 
+    A piece is as long as a transform holds, with a window of p before it and one behind, for which it waits.
+    """
 
-def _products(v: Array, p: Array, most: int) -> Array:
-    """Sums over t of v[t] p[t + shift] for shifts from -most to most, by transforms of blocks: n log(block) operations."""
-    size = 1 << (max(_BLOCK, 4 * most) - 1).bit_length()
-    step = size - 2 * most
-    total = np.zeros(size // 2 + 1, dtype=np.complex128)
-    for start in range(0, len(v), step):
-        before, after = max(start - most, 0), min(start + step + most, len(p))
-        ahead = np.zeros(size)
-        ahead[before - start + most : after - start + most] = p[before:after]
-        total += np.conj(np.fft.rfft(v[start : start + step], size)) * np.fft.rfft(ahead)
-    return np.fft.irfft(total, size)[: 2 * most + 1]
+    def __init__(self, window: int, size: int) -> None:
+        self._window, self._size, self._step = window, size, size - 2 * window
+        self._v, self._p = np.empty(0), np.zeros(window)  # of no piece yet; p from a window before v on
+        self._spectrum = np.zeros(size // 2 + 1, dtype=np.complex128)
+
+    def add(self, v: Array, p: Array) -> None:
+        """Take in the values that follow, (n,) each."""
+        self._v, self._p = np.concatenate([self._v, v]), np.concatenate([self._p, p])
+        while len(self._v) >= self._step + self._window:
+            self._spectrum += self._piece(self._v, self._p)
+            self._v, self._p = self._v[self._step :], self._p[self._step :]
+
+    def sums(self, most: int) -> Array:
+        """Those for shifts from -most to most, (2 most + 1,), with nothing behind the last values."""
+        spectrum, p = self._spectrum.copy(), np.concatenate([self._p, np.zeros(self._window)])
+        for start in range(0, len(self._v), self._step):
+            spectrum += self._piece(self._v[start:], p[start:])
+        shifts = np.fft.irfft(spectrum, self._size)
+        return shifts[self._window - most : self._window + most + 1]
+
+    def _piece(self, v: Array, p: Array) -> NDArray[np.complex128]:
+        """Spectrum of the products of the first piece of v with p, which begins a window before it."""
+        return np.conj(np.fft.rfft(v[: self._step], self._size)) * np.fft.rfft(p[: self._size], self._size)
 
 
 def _best(values: Array) -> int:

@@ -1,5 +1,6 @@
 """One number for how far the rider's motion is from the pilot's: what method `preview` makes least."""
 
+from collections.abc import Mapping
 from math import hypot
 
 from ..cueing import PreviewParameters
@@ -19,8 +20,12 @@ def cost(flight: Flight) -> dict[str, float]:
     the way. A direction of the force that is off by 1 deg costs 1 where the force is gravity's, and 3 deg/s beyond the
     vehicle's cost 1.
     """
-    figures = deviation(flight)
-    return combined(figures["force_rms_m_s2"], figures["rate_rms_rad_s"])
+    return cost_of(deviation(flight))
+
+
+def cost_of(deviations: Mapping[str, float]) -> dict[str, float]:
+    """The cost for figures of `deviation` that are known already."""
+    return combined(deviations["force_rms_m_s2"], deviations["rate_rms_rad_s"])
 
 
 def combined(force_rms: float, rate_rms: float) -> dict[str, float]:

@@ -23,6 +23,32 @@ GAIN_BAND = (0.8, 1.25)
 used by Schroeder, NASA/TP-1999-208766; the upper end is its reciprocal."""
 
 
+class Cues:
+    """Cues of one axis, counted block by block."""
+
+    def __init__(self, threshold: float) -> None:
+        """Of no ticks yet; `threshold` as in `cue_shares`."""
+        self._threshold = threshold
+        self._ticks, self._missing, self._false, self._scaled = 0, 0, 0, 0
+
+    def add(self, vehicle: Array, platform: Array) -> None:
+        """Take in the ticks that follow, (n,) each."""
+        wanted, size = np.abs(vehicle), np.abs(platform)
+        asked, given = wanted > self._threshold, size > self._threshold
+        alike = asked & given & ((vehicle > 0.0) == (platform > 0.0))
+        low, high = GAIN_BAND
+        scaled = alike & ((size < low * wanted) | (size > high * wanted))
+        self._ticks += len(vehicle)
+        self._missing += int(np.count_nonzero(asked & ~given))
+        self._false += int(np.count_nonzero(given & ~alike))
+        self._scaled += int(np.count_nonzero(scaled))
+
+    def shares(self) -> dict[str, float]:
+        """Those of `cue_shares`."""
+        counts = {"missing": self._missing, "false": self._false, "scaled": self._scaled}
+        return {kind: count / max(self._ticks, 1) for kind, count in counts.items()}
+
+
 def cue_shares(vehicle: Array, platform: Array, threshold: float) -> dict[str, float]:
     """Shares (0 to 1) of the ticks at which a cue is missing, false or scaled; no tick is two of them.
 
@@ -33,12 +59,6 @@ def cue_shares(vehicle: Array, platform: Array, threshold: float) -> dict[str, f
     - false: the platform's is there, the vehicle's is not, or has the opposite sign;
     - scaled: both are there, with one sign, and platform over vehicle is outside `GAIN_BAND`.
     """
-    if not len(vehicle):
-        return {"missing": 0.0, "false": 0.0, "scaled": 0.0}
-    asked, given = np.abs(vehicle) > threshold, np.abs(platform) > threshold
-    alike = asked & given & ((vehicle > 0.0) == (platform > 0.0))
-    low, high = GAIN_BAND
-    size, wanted = np.abs(platform), np.abs(vehicle)
-    scaled = alike & ((size < low * wanted) | (size > high * wanted))
-    kinds = {"missing": asked & ~given, "false": given & ~alike, "scaled": scaled}
-    return {kind: int(np.count_nonzero(ticks)) / len(vehicle) for kind, ticks in kinds.items()}
+    cues = Cues(threshold)
+    cues.add(vehicle, platform)
+    return cues.shares()

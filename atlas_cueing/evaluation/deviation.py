@@ -4,15 +4,56 @@ import numpy as np
 
 from ..rotation import conjugate, from_euler, to_euler
 from ..signals import STANDARD_GRAVITY, direction_error
-from .flight import Array, Flight
+from .flight import Array, Flight, gathered
 from .quaternions import geodesic, multiply
-from .statistics import by_rows, largest, length, mean, quantile, rms, spread
+from .statistics import Magnitudes, Spread, distance, length
 
 DIRECTION_FORCE = 0.1 * STANDARD_GRAVITY
 """Specific force that has a direction worth comparing, m/s^2 (assumed): at a tenth of g the smallest sideways force that is
 felt, 0.17 m/s^2 (`cues.FORCE_THRESHOLD`), already turns it by 10 deg."""
 
 _FLIP = np.array([1.0, 1.0, -1.0, -1.0])  # (N, FRD) quaternion to (W, FLU), see rotation.flip_rotation
+
+
+class Deviation:
+    """What the rider has against what the pilot has, block by block."""
+
+    def __init__(self) -> None:
+        """Of no ticks yet."""
+        self._heading: Array | None = None  # that of the vehicle at the start, taken out of its attitude
+        self._force, self._direction, self._rate, self._attitude = Spread(), Spread(), Spread(), Spread()
+        self._extra = Magnitudes()
+        self._unlimited = bytearray()  # 1 or 0 a tick: whether the rate error there is extra rate
+
+    def add(self, block: Flight) -> None:
+        """Take in the ticks that follow."""
+        if self._heading is None:
+            self._heading = _heading(block.vehicle_q_NB[0])
+        self._force.add(distance(block.felt_f, block.vehicle_f_B))
+        self._direction.add(_directions(block.vehicle_f_B, block.felt_f))
+        self._attitude.add(geodesic(_cabin(block.vehicle_q_NB, self._heading), block.motion_q_WS))
+        rate, unlimited = distance(block.felt_w, block.vehicle_w_B), block.limited[:, 0] == 0.0
+        self._rate.add(rate)
+        self._extra.add(rate[unlimited])
+        self._unlimited += unlimited.data
+
+    def figures(self) -> dict[str, float]:
+        """Those of `deviation`."""
+        return {
+            **self._force.figures("force", "m_s2"),
+            **self._direction.figures("direction", "rad"),
+            "direction_counted_share": self._direction.count / max(self._force.count, 1),
+            **self._rate.figures("rate", "rad_s"),
+            **self._attitude.figures("attitude", "rad"),
+        }
+
+    def extra_rate(self) -> dict[str, float]:
+        """Those of `extra_rate`."""
+        return {
+            "extra_rate_rms_rad_s": self._extra.rms,
+            "extra_rate_p99_rad_s": self._rate.quantile(0.99, np.frombuffer(self._unlimited, np.bool_)),
+            "extra_rate_max_rad_s": self._extra.largest,
+        }
 
 
 def deviation(flight: Flight) -> dict[str, float]:
@@ -24,15 +65,7 @@ def deviation(flight: Flight) -> dict[str, float]:
     - rate_..._rad_s: length of the difference of the angular rates, felt - vehicle, cabin FRD;
     - attitude_..._rad: angle of the rotation from the vehicle's attitude (`vehicle_attitude`) to the cabin's.
     """
-    direction = by_rows(_direction, flight.vehicle_f_B, flight.felt_f)
-    counted = ~np.isnan(direction)
-    return {
-        **spread("force", "m_s2", by_rows(_distance, flight.felt_f, flight.vehicle_f_B)),
-        **spread("direction", "rad", direction[counted]),
-        "direction_counted_share": mean(counted.astype(np.float64)),
-        **spread("rate", "rad_s", by_rows(_distance, flight.felt_w, flight.vehicle_w_B)),
-        **spread("attitude", "rad", _attitude(flight)),
-    }
+    return gathered(Deviation(), flight)
 
 
 def extra_rate(flight: Flight) -> dict[str, float]:
@@ -41,39 +74,31 @@ def extra_rate(flight: Flight) -> dict[str, float]:
     extra_rate_rms_rad_s, extra_rate_p99_rad_s, extra_rate_max_rad_s: what the cueing turns the rider on its own account, with
     what the actuators could not give left out; the same difference over all ticks is the rate error of `deviation`.
     """
-    extra = by_rows(_distance, flight.felt_w, flight.vehicle_w_B)[flight.limited[:, 0] == 0.0]
-    return {
-        "extra_rate_rms_rad_s": rms(extra),
-        "extra_rate_p99_rad_s": quantile(extra, 0.99),
-        "extra_rate_max_rad_s": largest(extra),
-    }
+    all_ticks = Deviation()
+    gathered(all_ticks, flight)
+    return all_ticks.extra_rate()
 
 
 def vehicle_attitude(flight: Flight) -> Array:
     """The vehicle's attitude as an orientation of the cabin, q_WS (n, 4), with its heading at the start taken out."""
-    return _cabin(flight.vehicle_q_NB, flight.vehicle_q_NB)
+    q_NB = flight.vehicle_q_NB
+    return _cabin(q_NB, _heading(q_NB[0])) if len(q_NB) else np.empty((0, 4))
 
 
-def _attitude(flight: Flight) -> Array:
-    start = flight.vehicle_q_NB[:1]
-    return by_rows(lambda q_NB, q_WS: geodesic(_cabin(q_NB, start), q_WS), flight.vehicle_q_NB, flight.motion_q_WS)
+def _heading(q_NB: Array) -> Array:
+    """The turn (4,) that takes the heading of q_NB (4,) to north."""
+    w, x, y, z = q_NB.tolist()
+    return np.array(conjugate(from_euler(to_euler((w, x, y, z))[0], 0.0, 0.0)))
 
 
-def _cabin(q_NB: Array, start: Array) -> Array:
-    """Cabin orientations for vehicle attitudes, heading at the start being that of the first row of `start`."""
-    if not len(start):
-        return np.empty((0, 4))
-    w, x, y, z = start[0].tolist()
-    heading = np.array(conjugate(from_euler(to_euler((w, x, y, z))[0], 0.0, 0.0)))
-    attitude: Array = multiply(heading, q_NB) * _FLIP
+def _cabin(q_NB: Array, to_north: Array) -> Array:
+    """Cabin orientations (n, 4) for vehicle attitudes (n, 4)."""
+    attitude: Array = multiply(to_north, q_NB) * _FLIP
     return attitude
 
 
-def _distance(p: Array, q: Array) -> Array:
-    return length(p - q)
-
-
-def _direction(f: Array, g: Array) -> Array:
-    """Angles (rad), NaN where one of the forces is too small to have a direction."""
-    small = (length(f) <= DIRECTION_FORCE) | (length(g) <= DIRECTION_FORCE)
-    return np.where(small, np.nan, direction_error(f, g))
+def _directions(f: Array, g: Array) -> Array:
+    """Angles (rad) between forces (n, 3), of the ticks at which both are large enough to have a direction."""
+    angles = direction_error(f, g)
+    counted = (length(f) > DIRECTION_FORCE) & (length(g) > DIRECTION_FORCE) & ~np.isnan(angles)
+    return angles if counted.all() else angles[counted]

@@ -1,5 +1,6 @@
-"""The columns of one run."""
+"""The columns of one run, whole or block by block."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from typing import Protocol
 
@@ -7,6 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+
+BLOCK_TICKS = 7168
+"""Ticks a block: its temporaries of 57 kB stay in the cache, they fill whole rows of `vestibular.Sensing`, and a product of
+matrices of them is small enough for BLAS not to wake a thread for each core."""
+
+TOPICS = ("/vehicle", "/cue", "/motion", "/wheels", "/felt")
+"""Of the log, those that a flight is read from."""
 
 
 class Columns(Protocol):
@@ -66,7 +74,7 @@ class Flight:
             motion_p_W=log.vector("/motion", "p"),
             motion_v_W=log.vector("/motion", "v"),
             motion_a_W=log.vector("/motion", "a"),
-            limited=np.column_stack([log.column("/motion", f"{part}_limited") for part in ("wheels", "stage")]),
+            limited=np.stack([log.column("/motion", f"{part}_limited") for part in ("wheels", "stage")]).T,
             wheel_speed=log.vector("/wheels", "w"),
             wheel_acceleration=log.vector("/wheels", "a"),
             felt_f=log.vector("/felt", "f"),
@@ -76,3 +84,42 @@ class Flight:
     def rows(self, rows: slice) -> "Flight":
         """A part of the flight."""
         return Flight(**{field.name: getattr(self, field.name)[rows] for field in fields(self)})
+
+    def blocks(self, ticks: int = BLOCK_TICKS) -> Iterator["Flight"]:
+        """The flight in blocks of so many ticks, counted from its start, each component of each column contiguous."""
+        for start in range(0, len(self.time), ticks):
+            block = self.rows(slice(start, start + ticks))
+            yield Flight(**{field.name: np.asfortranarray(getattr(block, field.name)) for field in fields(self)})
+
+
+class Figures(Protocol):
+    """Figures of a flight that comes block by block; only quantiles need memory that grows with it (`statistics.Spread`)."""
+
+    def add(self, block: Flight) -> None:
+        """Take in the ticks that follow, at least one."""
+
+    def figures(self) -> dict[str, float]:
+        """The figures of all ticks so far, the unit in the name."""
+
+
+def gathered(figures: Figures, flight: Flight) -> dict[str, float]:
+    """The figures of a whole flight, taken in block by block: to the last bit those of its log, read in the same blocks."""
+    for block in flight.blocks():
+        figures.add(block)
+    return figures.figures()
+
+
+class Tail:
+    """The last rows of a block, kept to be put in front of the next, so that differences go on across the cut."""
+
+    def __init__(self, rows: int) -> None:
+        """Keeps so many `rows`; of no block yet."""
+        self._rows = rows
+        self._kept: tuple[Array, ...] | None = None
+
+    def joined(self, *columns: Array) -> tuple[Array, ...]:
+        """These columns with the last rows of the same columns before them, of which there are fewer at the start."""
+        if self._kept is not None:
+            columns = tuple(np.concatenate(pair) for pair in zip(self._kept, columns, strict=True))
+        self._kept = tuple(column[-self._rows :].copy("K") for column in columns)
+        return columns

@@ -1,13 +1,46 @@
 """How good the cueing was: every figure of a flight."""
 
+from math import inf
+
 import numpy as np
 
-from .cost import cost
-from .deviation import deviation, extra_rate
-from .effort import effort
-from .flight import Flight
-from .likeness import likeness
-from .turning import turning
+from .cost import cost_of
+from .deviation import Deviation
+from .effort import Effort
+from .flight import Flight, gathered
+from .likeness import Likeness
+from .turning import Turning
+
+
+class Metrics:
+    """All figures of a flight that comes block by block."""
+
+    def __init__(self) -> None:
+        """Of no ticks yet."""
+        self._deviation, self._likeness, self._turning, self._effort = Deviation(), Likeness(), Turning(), Effort()
+        self._ticks, self._first, self._last = 0, inf, -inf
+
+    def add(self, block: Flight) -> None:
+        """Take in the ticks that follow."""
+        for part in (self._deviation, self._likeness, self._turning, self._effort):
+            part.add(block)
+        self._ticks += len(block.time)
+        self._first = float(np.minimum(self._first, np.min(block.time)))
+        self._last = float(np.maximum(self._last, np.max(block.time)))
+
+    def figures(self) -> dict[str, float]:
+        """Those of `metrics`."""
+        deviations = self._deviation.figures()
+        return {
+            **deviations,
+            **cost_of(deviations),
+            **self._deviation.extra_rate(),
+            **self._likeness.figures(),
+            **self._turning.figures(),
+            **self._effort.figures(),
+            "ticks": float(self._ticks),
+            "duration_s": self._last - self._first if self._ticks else 0.0,
+        }
 
 
 def metrics(flight: Flight) -> dict[str, float]:
@@ -19,13 +52,4 @@ def metrics(flight: Flight) -> dict[str, float]:
 
     Every figure is a finite float when the columns are finite; a flight without ticks gives zeros.
     """
-    return {
-        **deviation(flight),
-        **cost(flight),
-        **extra_rate(flight),
-        **likeness(flight),
-        **turning(flight),
-        **effort(flight),
-        "ticks": float(len(flight.time)),
-        "duration_s": float(np.ptp(flight.time)) if len(flight.time) else 0.0,
-    }
+    return gathered(Metrics(), flight)

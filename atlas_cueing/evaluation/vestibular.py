@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .flight import Array
 
-_BLOCK = 64  # ticks that one matrix product filters; the lags' states are carried from block to block
+_TICKS = 32  # that one row of a matrix product filters; the lags' states are carried from row to row
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,25 +39,11 @@ class Organ:
     def sense(self, signal: Array, dt: float) -> Array:
         """What is sensed of a signal (n,) of ticks `dt` (s) apart, after an eternity of its first value.
 
-        Exact for a signal that is straight between ticks (first-order hold). A recursion z' = decay z + drive u a lag, run as
-        one matrix product a block; scipy.signal.lfilter does the same and takes two seconds to import.
+        Exact for a signal that is straight between ticks (first-order hold).
         """
-        if not len(signal):
-            return np.empty(0)
-        decay, drive, state, direct = self._discrete(dt)
-        gains = np.array([gain for gain, _ in self.lags])
-        powers = decay ** np.arange(_BLOCK)[:, None]  # (block, lags)
-        kernel = np.concatenate([[direct], (powers * drive) @ gains])[:_BLOCK]
-        steps = np.subtract.outer(np.arange(_BLOCK), np.arange(_BLOCK))
-        impulses = np.where(steps < 0, 0.0, kernel[steps])  # (to, from) tick of a block
-        blocks = np.pad(signal, (0, -len(signal) % _BLOCK), mode="edge").reshape(-1, _BLOCK)
-        ends = blocks @ (powers[::-1] * drive)
-        states = _carried(ends, decay**_BLOCK, state * signal[0])
-        sensed: Array = blocks @ impulses.T
-        sensed += states @ (powers * gains).T
-        return sensed.ravel()[: len(signal)]
+        return Sensing(self, dt).sense(signal)
 
-    def _discrete(self, dt: float) -> tuple[Array, Array, Array, float]:
+    def discrete(self, dt: float) -> tuple[Array, Array, Array, float]:
         """First-order hold: decay and drive of each lag a tick, its state under a steady input of 1, the direct part."""
         gain, lag = np.array(self.lags).T
         rise = -np.expm1(-dt / lag)  # of a lag's output in a tick, under a steady input of 1
@@ -67,11 +53,48 @@ class Organ:
         return decay, rise - new + decay * new, 1.0 - new, self.direct + float(gain @ new)
 
 
+class Sensing:
+    """An organ at work on a signal that comes block by block.
+
+    A recursion z' = decay z + drive u a lag, run as one matrix product a few ticks; scipy.signal.lfilter does the same and
+    takes two seconds to import.
+    """
+
+    def __init__(self, organ: Organ, dt: float) -> None:
+        """The organ after an eternity of the first value that will come; ticks are `dt` (s) apart."""
+        self._decay, drive, self._steady, direct = organ.discrete(dt)
+        gains = np.array([gain for gain, _ in organ.lags])
+        powers = self._decay ** np.arange(_TICKS)[:, None]  # (ticks, lags)
+        kernel = np.concatenate([[direct], (powers * drive) @ gains])[:_TICKS]
+        steps = np.subtract.outer(np.arange(_TICKS), np.arange(_TICKS))
+        self._impulses = np.where(steps > 0, 0.0, kernel[-steps])  # (from, to) tick
+        self._readout = (powers * gains).T
+        self._weights = powers[::-1] * drive  # of the inputs in the lags' states behind the last of them
+        self._state: Array | None = None
+
+    def sense(self, signal: Array) -> Array:
+        """What is sensed of the signal (n,) that follows."""
+        if not len(signal):
+            return np.empty(0)
+        state = self._steady * signal[0] if self._state is None else self._state
+        rest = len(signal) % _TICKS
+        padded = np.pad(signal, (0, _TICKS - rest), mode="edge") if rest else signal
+        rows = np.ascontiguousarray(padded).reshape(-1, _TICKS)
+        states = _carried(rows @ self._weights, self._decay**_TICKS, state)
+        if rest:  # of the last row
+            self._state = states[-2] * self._decay**rest + rows[-1, :rest] @ self._weights[-rest:]
+        else:
+            self._state = states[-1]
+        sensed: Array = rows @ self._impulses
+        sensed += states[:-1] @ self._readout
+        return sensed.ravel()[: len(signal)]
+
+
 def _carried(ends: Array, decay: Array, start: Array) -> Array:
-    """States (blocks, lags) at the beginning of each block, from what each block adds to its end."""
+    """States (rows + 1, lags) before each row and behind the last, from what each row adds at its end."""
     columns = []
     for added, factor, first in zip(ends.T.tolist(), decay.tolist(), start.tolist(), strict=True):
-        carried = accumulate(added[:-1], lambda z, x, factor=factor: factor * z + x, initial=first)  # type: ignore[misc]
+        carried = accumulate(added, lambda z, x, factor=factor: factor * z + x, initial=first)  # type: ignore[misc]
         columns.append(list(carried))
     return np.array(columns).T
 

@@ -10,6 +10,8 @@ import numpy as np
 from ..errors import LogError
 from .wire import Array, Times
 
+_NUMBER = 8  # bytes
+
 
 @dataclass(frozen=True, slots=True)
 class Table:
@@ -76,14 +78,27 @@ class Growing:
         """A table of no messages yet."""
         self._fields, self._values, self._times = fields, bytearray(), bytearray()
 
+    def __len__(self) -> int:
+        """Messages it has."""
+        return len(self._times) // _NUMBER
+
     def add(self, values: Array, times: Times) -> None:
         """Values (n, fields) and log times (n,) that follow."""
-        self._values += values.tobytes()
-        self._times += times.tobytes()
+        self._values += np.ascontiguousarray(values).data.cast("B")
+        self._times += np.ascontiguousarray(times).data.cast("B")
 
     def table(self) -> Table:
         """What was added, to be read only."""
-        values = np.frombuffer(self._values).reshape(-1, len(self._fields))
-        times = np.frombuffer(self._times, np.uint64)
+        return self._table(np.frombuffer(self._values).reshape(-1, len(self._fields)), np.frombuffer(self._times, np.uint64))
+
+    def cut(self, messages: int) -> Table:
+        """The first so many messages, or all if there are fewer, in columns; they are dropped here."""
+        whole = self.table()
+        table = self._table(whole.values[:messages].copy("F"), whole.log_times[:messages].copy())
+        del whole  # what is looked at cannot be shortened
+        del self._values[: table.values.nbytes], self._times[: table.log_times.nbytes]
+        return table
+
+    def _table(self, values: Array, times: Times) -> Table:
         values.flags.writeable = times.flags.writeable = False
         return Table(self._fields, values, times)

@@ -25,24 +25,37 @@ def message_starts(data: bytes, index: Starts) -> Starts:
     return index if _fills(data, index) else _one_after_the_other(data)
 
 
+def windows(data: bytes, dtype: np.dtype[np.void]) -> NDArray[np.void]:
+    """The bytes of a record of `dtype` from every byte of the data on, as far as they fit; `view` makes it a record."""
+    return np.ndarray((max(len(data) - dtype.itemsize + 1, 0),), f"V{dtype.itemsize}", data, strides=(1,))
+
+
 def _fills(data: bytes, index: Starts) -> bool:
-    """Whether the index names messages that follow one another from the first byte of the data to the last."""
-    if not index:
+    """Whether the index names messages that follow one another from the first byte of the data to the last.
+
+    They do if the first byte is a start, if every message ends where one starts or with the data, and if their lengths add up
+    to the data's: from the first byte on, one leads to the next up to the end, which uses up all the bytes, so there are no
+    others. Those of a channel have to be in order, which is theirs in time.
+    """
+    if not all(np.all(of_channel[1:] > of_channel[:-1]) for of_channel in index.values()):
         return False
-    starts = np.concatenate(list(index.values()))
-    channels = np.repeat(list(index), [len(of_channel) for of_channel in index.values()])
-    order = np.argsort(starts, kind="stable")
-    starts, channels = starts[order], channels[order]
-    if len(starts) == 0 or starts[0] != 0 or starts[-1] + BOUNDARY.size > len(data):
+    starts = np.concatenate([np.empty(0, np.int64), *index.values()])
+    if len(starts) == 0 or starts.min() != 0 or starts.max() + BOUNDARY.size > len(data):
         return False
-    windows = np.lib.stride_tricks.sliding_window_view(np.frombuffer(data, np.uint8), BOUNDARY.size)
-    found = windows[starts].view(_DTYPE)[:, 0]
+    found = windows(data, _DTYPE)[starts].view(_DTYPE)
+    channels = np.repeat(np.array(list(index)), [len(of_channel) for of_channel in index.values()])
     lengths = found["length"]
     if not np.all((found["opcode"] == MESSAGE_OPCODE) & (found["channel"] == channels)):
         return False
     if not np.all((lengths >= MESSAGE_HEAD) & (lengths <= len(data))):
         return False
-    return np.array_equal(starts + RECORD_HEAD + lengths.astype(np.int64), np.append(starts[1:], len(data)))
+    sizes = lengths.astype(np.int64) + RECORD_HEAD
+    ends = starts + sizes
+    if sizes.sum() != len(data) or ends.max() != len(data):
+        return False
+    boundary = np.zeros(len(data) + 1, np.bool_)
+    boundary[starts] = boundary[-1] = True
+    return bool(np.all(boundary[ends]))
 
 
 def _one_after_the_other(data: bytes) -> Starts:

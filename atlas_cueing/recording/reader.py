@@ -1,6 +1,8 @@
-"""Reads a complete log back as columns, whole chunks at a time."""
+"""Reads a complete log back as columns, whole chunks at a time, at once or in blocks."""
 
 import struct
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +13,8 @@ from mcap.records import Attachment, Channel, Chunk, DataEnd, McapRecord, Metada
 from numpy.typing import NDArray
 
 from ..errors import LogError
-from .log import Growing, Log, Status
-from .message_starts import BOUNDARY, MESSAGE_HEAD, Starts, message_starts
+from .log import Growing, Log, Status, Table
+from .message_starts import BOUNDARY, MESSAGE_HEAD, Starts, message_starts, windows
 from .recorder import RUN_METADATA
 from .records import MessageOffsets, RecordReader, unpack
 from .schemas import STATUS, TF, flat_fields, message_class
@@ -33,12 +35,44 @@ def read_log(path: Path, max_bytes: int = MAX_LOG) -> Log:
     Raises:
         LogError: the file cannot be read, is cut or damaged (every checksum is checked), or is not a log of ours.
     """
+    (log,) = read_blocks(path, max_bytes=max_bytes)
+    return log
+
+
+def read_blocks(
+    path: Path, ticks: int | None = None, topics: Collection[str] | None = None, max_bytes: int = MAX_LOG
+) -> Iterator[Log]:
+    """Read a complete log of ours block by block, with memory for one block.
+
+    Every block but the last has `ticks` messages of each topic, in columns (contiguous along the messages); the last one has
+    what is left, which may be nothing. Metadata, attachments and states are those found so far: all of them in the last
+    block, which has /tf of the whole log as well. What is wrong with the file is raised where it is met, when blocks have
+    been given already.
+
+    Args:
+        path: as in `read_log`.
+        ticks: length of a block; without it there is one, of everything.
+        topics: those whose numbers are wanted, all by default; the tables of others stay empty. Their bytes are checked by
+            checksum, their fields are not looked at.
+        max_bytes: bound on the unpacked messages of the whole log.
+
+    Raises:
+        LogError: as `read_log`.
+    """
+    with _telling(path), path.open("rb") as stream:
+        content = _Content(path, topics, max_bytes)
+        for record in RecordReader(stream).records():
+            content.add(record)
+            while ticks and content.ticks >= ticks:
+                yield content.cut(ticks)
+        yield content.rest()
+
+
+@contextmanager
+def _telling(path: Path) -> Iterator[None]:
+    """Every error of reading as a LogError of one line that names the file."""
     try:
-        with path.open("rb") as stream:
-            content = _Content(max_bytes)
-            for record in RecordReader(stream).records():
-                content.add(record)
-            return content.log(path)
+        yield
     except LogError as error:
         raise LogError(f"{path}: {error}") from error
     except OSError as error:
@@ -49,14 +83,15 @@ def read_log(path: Path, max_bytes: int = MAX_LOG) -> Log:
 
 
 class _Content:
-    """What has been found in a log so far."""
+    """What has been found in a log so far, and was not cut off as a block."""
 
-    def __init__(self, max_bytes: int) -> None:
-        self._left = max_bytes
+    def __init__(self, path: Path, topics: Collection[str] | None, max_bytes: int) -> None:
+        self._path, self._topics, self._left = path, topics, max_bytes
         self._schemas: dict[int, Schema] = {}
         self._channels: dict[int, Channel] = {}
-        self._fields: dict[int, tuple[str, ...]] = {}  # of the channels with flat messages
+        self._fields: dict[int, tuple[str, ...]] = {}  # of the channels with flat messages that are wanted
         self._tables: dict[int, Growing] = {}
+        self._read: list[Growing] = []  # of these, the ones that are filled
         self._transforms: dict[int, Growing] = {}
         self._status_class: dict[int, Any] = {}
         self._statuses: list[Status] = []
@@ -89,13 +124,26 @@ class _Content:
             case DataEnd() if RUN_METADATA not in self._metadata:
                 raise LogError(f"this is no log of atlas_cueing: it has no metadata record {RUN_METADATA!r}")
 
-    def log(self, path: Path) -> Log:
-        """All of it."""
+    @property
+    def ticks(self) -> int:
+        """Messages that every topic has by now."""
+        return min(map(len, self._read), default=0)
+
+    def cut(self, ticks: int) -> Log:
+        """The first ticks as a block, which are dropped here."""
+        return self._log({channel: growing.cut(ticks) for channel, growing in self._tables.items()}, None)
+
+    def rest(self) -> Log:
+        """All that is left, when there are no more records."""
         self._finish_chunk()
-        tables = {self._channels[channel].topic: growing.table() for channel, growing in self._tables.items()}
         poses = [growing.table() for growing in self._transforms.values()]
-        transforms = poses[0] if poses else None
-        return Log(path, tables, self._metadata[RUN_METADATA], self._attachments, tuple(self._statuses), transforms)
+        tables = {channel: growing.table() for channel, growing in self._tables.items()}
+        return self._log(tables, poses[0] if poses else None)
+
+    def _log(self, tables: dict[int, Table], transforms: Table | None) -> Log:
+        topics = {self._channels[channel].topic: table for channel, table in tables.items()}
+        metadata = self._metadata.get(RUN_METADATA, {})
+        return Log(self._path, topics, metadata, self._attachments, tuple(self._statuses), transforms)
 
     def _charge(self, size: int) -> None:
         """Bound what is kept in memory; schemas and files count as messages do."""
@@ -111,9 +159,16 @@ class _Content:
         if channel.topic == STATUS:
             self._status_class[channel.id] = message_class(schema.name, schema.data)
         elif channel.topic == TF:
-            self._transforms[channel.id] = Growing(POSE)
+            if self._wants(TF):
+                self._transforms[channel.id] = Growing(POSE)
         elif (fields := flat_fields(schema.name, schema.data)) is not None:
-            self._fields[channel.id], self._tables[channel.id] = fields, Growing(fields)
+            self._tables[channel.id] = Growing(fields)
+            if self._wants(channel.topic):
+                self._fields[channel.id] = fields
+                self._read.append(self._tables[channel.id])
+
+    def _wants(self, topic: str) -> bool:
+        return self._topics is None or topic in self._topics
 
     def _keep_index(self, offsets: MessageOffsets) -> None:
         """Keep what the log says of the present chunk, unless it names more messages than fit in."""
@@ -171,6 +226,4 @@ def _records(data: bytes, starts: NDArray[np.int64], dtype: np.dtype[np.void]) -
     """The records of one layout at `starts`; None when the last one does not fit into the data."""
     if starts[-1] + dtype.itemsize > len(data):
         return None
-    windows = np.lib.stride_tricks.sliding_window_view(np.frombuffer(data, np.uint8), dtype.itemsize)
-    records: Records = windows[starts].view(dtype)[:, 0]
-    return records
+    return windows(data, dtype)[starts].view(dtype)

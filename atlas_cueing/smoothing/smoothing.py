@@ -1,6 +1,7 @@
 """The whole of smoothing: sphere and stage side by side."""
 
 from math import inf, sqrt
+from typing import Final
 
 from ..errors import PlanningError
 from ..rotation import Mat3, norm
@@ -8,8 +9,8 @@ from ..signals import Cue, Motion, StageLimits, WheelLimits
 from .sphere import SphereSmoothing
 from .stage import StageSmoothing
 
-_UNIT = 1e-6  # a quaternion whose norm is off by more is no orientation
-_ABSURD_RATE = 1e3  # rad/s; nobody asks a cabin for more, and the arithmetic stays far from overflow below it
+_UNIT: Final = 1e-6  # a quaternion whose norm is off by more is no orientation
+_ABSURD_RATE: Final = 1e3  # rad/s; nobody asks a cabin for more, and the arithmetic stays far from overflow below it
 
 
 class Smoothing:

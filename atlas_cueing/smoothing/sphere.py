@@ -12,6 +12,7 @@ orientation.
 """
 
 from math import inf, pi
+from typing import Final
 
 from ..rotation import (
     IDENTITY,
@@ -33,11 +34,11 @@ from ..signals import Cue, WheelLimits
 from .axis import Axis, Step
 from .stop import approach
 
-_GAIN = 4.0  # 1/s; a small orientation error is taken back with a time constant of 0.25 s
-_BRAKING_SHARE = 0.5  # of the wheels' acceleration and jerk, planned with on the way to a distant cue; the rest is reserve
-_MET_ANGLE = 0.01 * pi / 180.0  # rad; a larger lag than this is reported as limited
-_NO_ANGLE = 1e-12  # rad; a smaller error has no direction worth the name
-_OTHER_WAY = 0.5  # rad beyond half a turn before a catch-up under way changes over to the other way round
+_GAIN: Final = 4.0  # 1/s; a small orientation error is taken back with a time constant of 0.25 s
+_BRAKING_SHARE: Final = 0.5  # of the wheels' acceleration and jerk, planned with on the way to a distant cue
+_MET_ANGLE: Final = 0.01 * pi / 180.0  # rad; a larger lag than this is reported as limited
+_NO_ANGLE: Final = 1e-12  # rad; a smaller error has no direction worth the name
+_OTHER_WAY: Final = 0.5  # rad beyond half a turn before a catch-up under way changes over to the other way round
 
 
 class SphereSmoothing:

@@ -10,6 +10,7 @@ stop itself is checked in continuous time.
 """
 
 from math import copysign, inf, isfinite
+from typing import Final
 
 from ..errors import PlanningError
 from ..rotation import Vec3
@@ -17,10 +18,10 @@ from ..signals import Cue, StageLimits
 from .axis import Axis, Step
 from .stop import Stop, approach, stop_bound
 
-_GAIN = 4.0  # 1/s; a small position error is taken back with a time constant of 0.25 s
-_END_GAIN = 10.0  # 1/s; over the last centimetres of the travel the speed falls with a time constant of 0.1 s
-_BRAKING_SHARE = 0.7  # of acceleration and jerk, planned with towards the ends of the travel and a distant cue
-_MET_DISTANCE = 1e-4  # m; a larger lag than this is reported as limited
+_GAIN: Final = 4.0  # 1/s; a small position error is taken back with a time constant of 0.25 s
+_END_GAIN: Final = 10.0  # 1/s; over the last centimetres of the travel the speed falls with a time constant of 0.1 s
+_BRAKING_SHARE: Final = 0.7  # of acceleration and jerk, planned with towards the ends of the travel and a distant cue
+_MET_DISTANCE: Final = 1e-4  # m; a larger lag than this is reported as limited
 
 
 class RailAxis:

@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 from math import isfinite
+from typing import Final
 
 import jsbsim
 
@@ -10,7 +11,7 @@ from ..errors import InputError
 from .flights import TimedInput
 from .library import is_property_name, suggestion, writable_names
 
-_TIME_TOLERANCE = 1e-9  # s; an input at n dt belongs to step n however n dt was rounded
+_TIME_TOLERANCE: Final = 1e-9  # s; an input at n dt belongs to step n however n dt was rounded
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,7 @@
 """Vehicle states out of JSBSim's properties: feet become metres here."""
 
 from math import atan2, cos, pi, sin
+from typing import Final
 from warnings import catch_warnings, simplefilter
 
 import jsbsim
@@ -8,9 +9,9 @@ import jsbsim
 from ..rotation import IDENTITY, Quat, continuous, from_euler
 from ..signals import STANDARD_GRAVITY, VehicleState
 
-METRES_PER_FOOT = 0.3048  # the international foot, exactly
-EARTH_RATE = 7.292115e-5  # rad/s, WGS 84
-_NEAR_VERTICAL = 0.5 * pi - 1e-6  # rad of pitch
+METRES_PER_FOOT: Final = 0.3048  # the international foot, exactly
+EARTH_RATE: Final = 7.292115e-5  # rad/s, WGS 84
+_NEAR_VERTICAL: Final = 0.5 * pi - 1e-6  # rad of pitch
 
 
 class Readings:

@@ -1,9 +1,22 @@
+"""Figures of a finished log, read block by block."""
+
+import tracemalloc
+from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
+import pytest
+
 from atlas_cueing.batch.run import run_scenario
-from atlas_cueing.scenario import evaluate, load_platform
+from atlas_cueing.evaluation import BLOCK_TICKS, Flight, consistency, limit_use, metrics
+from atlas_cueing.recording import McapRecorder, read_log
+from atlas_cueing.review import review
+from atlas_cueing.scenario import Scenario, evaluate, load_platform
+from atlas_cueing.signals import LIVE_TOPICS, TOPICS
 
 from .conftest import Load
+
+LONG = 2 * BLOCK_TICKS + 1234  # ticks
 
 
 def test_the_log_alone_gives_the_figures_of_the_run(load: Load, tmp_path: Path) -> None:
@@ -38,3 +51,110 @@ def test_a_log_that_cannot_be_read_is_a_finding(load: Load, tmp_path: Path) -> N
     assert len(evaluation.violations) == 1
     assert evaluation.violations[0].startswith("not evaluated: ")
     assert evaluation.metrics == {}
+
+
+@pytest.fixture
+def long_log(load: Load, tmp_path: Path) -> Callable[[int], tuple[Scenario, Path]]:
+    """Logs of so many ticks: a flight of a second over and over, with times that go on."""
+    scenario = load("cueing.method=attitude")
+    flown = read_log(run_scenario(scenario, tmp_path / "short.mcap").log)
+    second = np.hstack([flown.tables[topic.name].values for topic in TOPICS[:4]])
+    times = [k for k, name in enumerate(name for topic in TOPICS[:4] for name in topic.fields) if name == "time_s"]
+
+    def record(ticks: int) -> tuple[Scenario, Path]:
+        rows = second[np.arange(ticks) % len(second)]
+        rows[:, times] = (np.arange(ticks) / 1000.0)[:, None]
+        log = tmp_path / f"{ticks}.mcap"
+        recorder = McapRecorder(log, head_S=scenario.platform.head_S, metadata={}, attachments=scenario.attachments())
+        for start in range(0, ticks, 500):
+            for row in rows[start : start + 500]:
+                recorder.append_live(row.tobytes())
+            recorder.flush()
+        recorder.close("ok", "")
+        return scenario, log
+
+    return record
+
+
+@pytest.mark.parametrize("ticks", [500, BLOCK_TICKS, LONG])
+def test_run_and_review_agree_to_the_last_bit(long_log: Callable[[int], tuple[Scenario, Path]], ticks: int) -> None:
+    scenario, log = long_log(ticks)
+    found, reviewed = evaluate(log, scenario.platform), review(log)
+    assert found.metrics["ticks"] == ticks
+    shared = {name: found.metrics[name] for name in reviewed.metrics}
+    assert shared == reviewed.metrics
+    assert len(shared) > 100
+
+
+def test_the_figures_in_blocks_are_those_of_the_whole(long_log: Callable[[int], tuple[Scenario, Path]]) -> None:
+    """And all of them are there."""
+    scenario, log = long_log(LONG)
+    platform, geometry = scenario.platform, scenario.platform.geometry()
+    found, flight = evaluate(log, platform), Flight.of(read_log(log))
+    expected = metrics(flight) | consistency(flight, geometry.wheels_from_sphere, geometry.sphere_from_wheels)
+    assert found.metrics == expected
+    assert list(found.metrics) == list(expected)
+    assert found.limit_use == limit_use(flight, platform.wheel_speed_limits(), platform.stage_motion_limits())
+
+
+def test_a_live_log_is_judged_where_it_was_running(load: Load, tmp_path: Path) -> None:
+    """Its limits everywhere: the wheels turn fastest while it is parked."""
+    scenario, ticks = load("cueing.method=attitude"), 2 * BLOCK_TICKS
+    time, names = np.arange(ticks) / 1000.0, [(topic.name, field) for topic in LIVE_TOPICS[:-1] for field in topic.fields]
+    rows = np.zeros((ticks, len(names)))
+    for k, (topic, field) in enumerate(names):
+        if field in ("time_s", "elapsed_s"):
+            rows[:, k] = time
+        elif field in ("q_nb_w", "q_ws_w"):
+            rows[:, k] = 1.0
+        elif (topic, field) == ("/wheels", "w1_rad_s"):
+            rows[:, k] = np.where(time < 3.0, 7.0, 0.5)
+    log = tmp_path / "live.mcap"
+    recorder = McapRecorder(
+        log, head_S=(0.0, 0.0, 0.0), metadata={}, attachments=scenario.attachments(), started_ns=1_700_000_000 * 10**9
+    )
+    for at, state in ((0.0, "parked"), (4.0, "running"), (12.0, "parking")):
+        recorder.status(at, state, "")
+    recorder.append_live(rows.tobytes())
+    recorder.close("ok", "")
+    found = evaluate(log, scenario.platform)
+    assert (found.metrics["ticks"], found.metrics["wheel_speed_max_rad_s"]) == (8000.0, 0.5)
+    assert found.metrics["wheel_speed_mismatch_max_rad_s"] == 7.0
+    assert found.limit_use["wheel_speed_logged"] == 7.0 / scenario.platform.wheel_speed_limits().speed[0]
+    assert review(log).metrics == {name: found.metrics[name] for name in metrics(Flight.of(read_log(log)))}
+
+
+def test_a_log_that_breaks_off_after_some_blocks_has_no_figures(long_log: Callable[[int], tuple[Scenario, Path]]) -> None:
+    scenario, log = long_log(LONG)
+    log.write_bytes(log.read_bytes()[:-100])
+    evaluation = evaluate(log, scenario.platform)
+    assert (evaluation.metrics, evaluation.limit_use, len(evaluation.violations)) == ({}, {}, 1)
+
+
+def test_a_log_without_ticks(load: Load, tmp_path: Path) -> None:
+    scenario, log = load(), tmp_path / "none.mcap"
+    McapRecorder(log, head_S=(0.0, 0.0, 0.0), metadata={}, attachments={}).close("ok", "")
+    evaluation = evaluate(log, scenario.platform)
+    assert set(evaluation.metrics.values()) == set(evaluation.limit_use.values()) == {0.0}
+
+
+def test_a_log_without_a_topic_is_told(load: Load, tmp_path: Path) -> None:
+    log = tmp_path / "log.mcap"
+    McapRecorder(log, head_S=(0.0, 0.0, 0.0), metadata={}, attachments={}, skip_topics=("/felt",)).close("ok", "")
+    found = evaluate(log, load().platform)
+    assert found.metrics == {}
+    assert "the log has no topic '/felt'; topics: /vehicle, /cue, /motion, /wheels" in found.violations[0]
+
+
+def test_memory_grows_by_the_quantiles_only(long_log: Callable[[int], tuple[Scenario, Path]]) -> None:
+    """33 bytes a tick, not the 560 of its columns."""
+    peaks = {}
+    for ticks in (3 * BLOCK_TICKS, 6 * BLOCK_TICKS):
+        scenario, log = long_log(ticks)
+        tracemalloc.start()
+        try:
+            evaluate(log, scenario.platform)
+            peaks[ticks] = tracemalloc.get_traced_memory()[1]
+        finally:
+            tracemalloc.stop()
+    assert peaks[6 * BLOCK_TICKS] - peaks[3 * BLOCK_TICKS] < 60 * 3 * BLOCK_TICKS

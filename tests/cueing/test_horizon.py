@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from atlas_cueing.cueing import HorizonParameters
 from atlas_cueing.cueing.horizon import HorizonAxis, block_ticks, planning_ticks
+from atlas_cueing.cueing.horizon_law import Plan
 from atlas_cueing.cueing.onset import OnsetFilter
 
 DT = 1.0 / 120.0
@@ -65,11 +66,11 @@ def test_all_limits_hold_between_ticks_too_and_no_plan_is_missing(
     moved, missing, made = axis(dt, limits), 0, 0
     solve = moved.problem.solve
 
-    def counted(*state: float) -> list[float] | None:
+    def counted(*state: float) -> Plan | None:
         nonlocal missing, made
-        jerks = solve(*state)
-        missing, made = missing + (jerks is None), made + 1
-        return jerks
+        plan = solve(*state)
+        missing, made = missing + (plan is None), made + 1
+        return plan
 
     monkeypatch.setattr(moved.problem, "solve", counted)
     path = fly(moved, wild(11, 8000))
@@ -103,12 +104,12 @@ def test_one_failure_now_and_then_goes_unnoticed_but_for_the_plan_s_age(monkeypa
     moved, calls, found = axis(), 0, 0
     solve = moved.problem.solve
 
-    def unreliable(*state: float) -> list[float] | None:
+    def unreliable(*state: float) -> Plan | None:
         nonlocal calls, found
         calls += 1
-        jerks = solve(*state) if calls % 3 else None
-        found += jerks is not None
-        return jerks
+        plan = solve(*state) if calls % 3 else None
+        found += plan is not None
+        return plan
 
     monkeypatch.setattr(moved.problem, "solve", unreliable)
     path = fly(moved, wild(7, 6000))

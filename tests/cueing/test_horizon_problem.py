@@ -109,14 +109,20 @@ def weights(t: np.ndarray) -> np.ndarray:
     return w * (t[1] - t[0]) / 3.0
 
 
+def solved(problem: HorizonProblem, state: tuple[float, float, float, float]) -> list[float]:
+    """Jerks of the plan, which there is."""
+    plan = problem.solve(*state)
+    assert plan is not None
+    return plan.jerks
+
+
 def accelerations(state: tuple[float, ...], jerks: np.ndarray) -> np.ndarray:
     return np.cumsum(np.array(jerks) * DURATIONS) + state[2]
 
 
 @pytest.mark.parametrize("state", STATES, ids=str)
 def test_the_plan_is_the_one_that_scipy_finds(state: tuple[float, float, float, float]) -> None:
-    jerks = HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS).solve(*state)
-    assert jerks is not None
+    jerks = solved(HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS), state)
     other = best(state)
     assert cost(state, np.array(jerks)) == pytest.approx(cost(state, other), rel=1e-6, abs=1e-9)
     assert accelerations(state, np.array(jerks)) == pytest.approx(accelerations(state, other), abs=1e-4)
@@ -125,8 +131,7 @@ def test_the_plan_is_the_one_that_scipy_finds(state: tuple[float, float, float, 
 @pytest.mark.parametrize("state", STATES, ids=str)
 def test_every_plan_ends_at_a_standstill_inside_all_limits(state: tuple[float, float, float, float]) -> None:
     """Also between the nodes, and with the limits used where the demand is large."""
-    jerks = HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS).solve(*state)
-    assert jerks is not None
+    jerks = solved(HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS), state)
     blocks = simulate(state, np.array(jerks))
     assert [float(x[-1]) for x in blocks[-1][1][1:]] == pytest.approx([0.0, 0.0], abs=1e-6)
     most = np.max(np.abs([np.concatenate([path[i] for _, path in blocks]) for i in range(3)]), axis=1) / LIMITS[:3]
@@ -181,19 +186,17 @@ def test_a_state_without_a_way_out_is_no_plan_and_is_forgotten() -> None:
     """Too fast to stop before the end; then from a harmless state as if nothing had been."""
     problem = HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS)
     assert problem.solve(0.95, 1.4, 0.0, 0.0) is None
-    again, fresh = problem.solve(*STATES[1]), HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS).solve(*STATES[1])
+    again, fresh = solved(problem, STATES[1]), solved(HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS), STATES[1])
     assert again == pytest.approx(fresh, abs=1e-6)
 
 
 @pytest.mark.parametrize("scale", [1e-3, 1e4])
 def test_small_and_large_stages_are_solved_alike(scale: float) -> None:
     """All lengths times a factor: all jerks times that."""
-    one = HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS).solve(0.3, -0.2, 0.1, 5.0)
-    other = HorizonProblem(DURATIONS, OMEGA, FADE, tuple(scale * x for x in LIMITS)).solve(  # type: ignore[arg-type]
-        *(scale * x for x in (0.3, -0.2, 0.1, 5.0))
-    )
-    assert one is not None
-    assert other is not None
+    one = solved(HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS), (0.3, -0.2, 0.1, 5.0))
+    travel, speed, acceleration, jerk = (scale * x for x in LIMITS)
+    p, v, a, demand = (scale * x for x in (0.3, -0.2, 0.1, 5.0))
+    other = solved(HorizonProblem(DURATIONS, OMEGA, FADE, (travel, speed, acceleration, jerk)), (p, v, a, demand))
     assert [x / scale for x in other] == pytest.approx(one, abs=1e-2)
 
 

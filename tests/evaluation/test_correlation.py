@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from atlas_cueing.evaluation.correlation import WINDOW, correlation
+from atlas_cueing.evaluation.correlation import MOST, WINDOW, Correlation, correlation
 
 DT = 0.008
 T = np.arange(5000) * DT
@@ -58,6 +58,67 @@ def test_the_peak_is_pearsons_correlation_over_the_overlap(count: int) -> None:
     offset = 0.5 * (a - c) / (a - 2.0 * b + c)
     assert delay == pytest.approx((late + offset) * DT, abs=1e-10)
     assert peak == pytest.approx(min(b - 0.25 * (a - c) * offset, 1.0), abs=1e-10)
+
+
+def in_pieces(reference: np.ndarray, delayed: np.ndarray, pieces: list[int], dt: float = DT) -> tuple[float, float]:
+    """Of signals that come in pieces that end there."""
+    signals = Correlation(dt)
+    for v, p in zip(np.split(reference, pieces), np.split(delayed, pieces), strict=True):
+        signals.add(v, p)
+    return signals.peak()
+
+
+PIECES = [[7], [7168, 14_336], [1, 2, 3, 60, 61, 123, 200], [19_999], [8192, 8193, 16_384, 16_500]]
+
+
+@pytest.mark.parametrize("pieces", PIECES, ids=str)
+@pytest.mark.parametrize("late", [-40, 0, 11])
+def test_in_pieces_it_is_pearsons_correlation_over_the_overlap_too(pieces: list[int], late: int) -> None:
+    """Noise around values far from zero that drift away, against numpy at the peak."""
+    count = 20_000
+    noise, other = np.random.default_rng(1).normal(size=(2, count))
+    p = noise + np.linspace(1e3, 1e3 + 5.0, count)
+    q = np.roll(noise, late) + 0.3 * other - 1e4
+    if late >= 0:
+        compared = p[: count - late], q[late:]
+    else:
+        compared = p[-late:], q[:late]
+    peak, delay = in_pieces(p, q, pieces)
+    assert delay == pytest.approx(late * DT, abs=0.5 * DT)
+    assert peak == pytest.approx(np.corrcoef(*compared)[0, 1], abs=2e-3)  # the parabola's vertex is a little higher
+    assert (peak, delay) == pytest.approx(correlation(p, q, DT), abs=1e-10)
+
+
+@pytest.mark.parametrize("pieces", PIECES, ids=str)
+@pytest.mark.parametrize("gain", [0.1, -1.0 / 3.0, 7.3])
+def test_a_long_ramp_in_pieces_is_not_late(pieces: list[int], gain: float) -> None:
+    """The first piece says little about the mean of the whole: what cancels must not make one shift the best."""
+    t = np.arange(20_000) * DT
+    peak, delay = in_pieces(t, gain * t + 1e3, pieces)
+    assert peak == pytest.approx(np.sign(gain))
+    assert delay == 0.0
+
+
+def test_a_first_piece_that_stands_still() -> None:
+    """At rest for a thousandth of the record, far below what follows."""
+    moving = 1e3 + wave(np.arange(50_000) * DT)
+    p, q = (np.concatenate([np.zeros(50), x]) for x in (moving, np.roll(moving, 5)))
+    assert in_pieces(p, q, [50]) == pytest.approx(correlation(p, q, DT), abs=1e-10)
+
+
+def test_the_window_of_a_log_that_claims_any_rate_is_bounded() -> None:
+    noise = np.random.default_rng(3).normal(size=5 * MOST)
+    late = 1000
+    peak, delay = correlation(noise, np.roll(noise, late), 1e-12)
+    assert (peak, delay / 1e-12) == (pytest.approx(1.0, abs=0.02), pytest.approx(late, abs=0.5))
+    assert correlation(noise, np.roll(noise, MOST + 1000), 1e-12)[0] < 0.1
+
+
+@pytest.mark.parametrize("rounding", [-1e-15, 0.0, 1e-15])
+def test_rounding_of_the_step_does_not_move_the_window(rounding: float) -> None:
+    """At 125 Hz it ends amid two ticks."""
+    p, q = np.sin(T), np.sin(T - 0.7)
+    assert correlation(p, q, 0.008 * (1.0 + rounding))[1] == pytest.approx(62 * 0.008, rel=1e-12)
 
 
 def test_a_part_that_is_not_alike_lowers_the_correlation() -> None:

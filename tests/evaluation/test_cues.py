@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from atlas_cueing.evaluation.cues import FORCE_THRESHOLD, GAIN_BAND, RATE_THRESHOLD, cue_shares
+from atlas_cueing.evaluation.cues import FORCE_THRESHOLD, GAIN_BAND, RATE_THRESHOLD, Cues, cue_shares
 
 T = 0.17
 LOW, HIGH = GAIN_BAND
@@ -93,6 +93,14 @@ def _wrong(vehicle: np.ndarray, platform: np.ndarray, threshold: float) -> list[
 
 def _sign(x: float, threshold: float) -> int:
     return int(x > threshold) - int(x < -threshold)
+
+
+@given(signals, st.lists(st.integers(0, 30), max_size=4).map(sorted))
+def test_counted_in_pieces(pair: np.ndarray, cuts: list[int]) -> None:
+    cues = Cues(T)
+    for vehicle, platform in zip(*(np.split(signal, cuts) for signal in pair), strict=True):
+        cues.add(vehicle, platform)
+    assert cues.shares() == cue_shares(*pair, T)
 
 
 def test_no_ticks() -> None:

@@ -76,7 +76,7 @@ def test_perceived_error_is_what_the_organ_makes_of_the_error() -> None:
         sensed = np.column_stack([ORGANS[name].sense(error[:, i], DT) for i in range(3)])
         size = np.linalg.norm(sensed, axis=1)
         assert figures[f"perceived_{name}_rms_{unit}"] == pytest.approx(np.sqrt(np.mean(size**2)), rel=1e-9)
-        assert figures[f"perceived_{name}_p95_{unit}"] == pytest.approx(np.quantile(size, 0.95), rel=1e-9)
+        assert figures[f"perceived_{name}_p95_{unit}"] == pytest.approx(np.quantile(size, 0.95), rel=1e-7)
         assert figures[f"perceived_{name}_max_{unit}"] == pytest.approx(np.max(size), rel=1e-9)
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from atlas_cueing.evaluation import limit_use, violations
+from atlas_cueing.evaluation import BLOCK_TICKS, limit_use, violations
 from atlas_cueing.signals import StageLimits, WheelLimits
 
 from .flights import still
@@ -84,6 +84,19 @@ def test_a_jump_between_two_ticks_is_a_violation(field: str, caught: set[str]) -
     values[50:, 1] = 0.3
     use = limit_use(still(100, DT, **{field: values}), WHEELS, STAGE)
     assert {line.split()[0] for line in violations(use)} == caught
+
+
+@pytest.mark.parametrize("tick", [BLOCK_TICKS + k for k in (-3, -2, -1, 0, 1, 2)])
+@pytest.mark.parametrize("kind", [np.sign, np.abs], ids=["jump", "kink"])
+@pytest.mark.parametrize("field", ["wheel_speed", "wheel_acceleration", "motion_p_W", "motion_v_W", "motion_a_W"])
+def test_where_a_block_ends_does_not_matter(field: str, kind: np.ufunc, tick: int) -> None:
+    """A jump, or a kink, at the last tick of a block or at the first ticks of the next."""
+
+    def use(count: int, place: int) -> dict[str, float]:
+        values = np.minimum(kind(np.arange(count) - place), 9.0)
+        return limit_use(still(count, 1.0, **{field: on_axis(values, 1)}), WHEELS, STAGE)
+
+    assert use(tick + 500, tick) == use(1000, 500)
 
 
 def test_uneven_ticks() -> None:

@@ -8,7 +8,7 @@ import pytest
 from atlas_cueing.errors import LogError
 from atlas_cueing.recording import message_starts as module
 from atlas_cueing.recording import read_log
-from atlas_cueing.recording.message_starts import Starts, message_starts
+from atlas_cueing.recording.message_starts import Starts, message_starts, windows
 from atlas_cueing.recording.reader import _Content
 from atlas_cueing.recording.records import MessageOffsets
 from atlas_cueing.recording.wire import record_template
@@ -47,6 +47,8 @@ def changed(channel: int, starts: list[int]) -> Starts:
         changed(2, [47]),  # one amid the others
         changed(2, [47, 247]),
         changed(2, [47, 246, 246]),
+        changed(1, [168, 0, 367]),  # in another order than theirs
+        changed(2, [47, 47]),
         changed(3, [-1]),
         changed(3, [2**62]),
         changed(3, []),
@@ -79,12 +81,36 @@ def test_a_cut_chunk_is_found_whatever_the_index_says(size: int) -> None:
         message_starts(DATA[:size], GOOD)
 
 
+def test_messages_that_overlap_are_not_believed() -> None:
+    """One message holds another, whose end is the first one's end: every end is a start, but lengths do not add up."""
+    inner = record_template(3, bytes(5))
+    data = record_template(1, bytes(40)) + record_template(2, inner)
+    lying: Starts = {1: np.array([0]), 2: np.array([71]), 3: np.array([102])}
+    assert same(message_starts(data, lying), {1: lying[1], 2: lying[2]})
+
+
+def test_a_message_that_ends_where_none_starts_is_not_believed() -> None:
+    """The second message is hidden, and one inside the first is named, of the same length: lengths do add up."""
+    second = record_template(2, bytes(16))
+    first = record_template(1, second[:11] + bytes(40))
+    data, start, end = first + second + record_template(1, bytes(5)), len(first), len(first + second)
+    assert same(message_starts(data, {1: np.array([0, end]), 2: np.array([31])}), {1: np.array([0, end]), 2: np.array([start])})
+
+
+def test_every_record_of_a_chunk_can_be_looked_at() -> None:
+    dtype = np.dtype([("a", "u1"), ("b", "<u2")])
+    found = windows(bytes(range(5)), dtype)
+    assert [bytes(each.tobytes()) for each in found] == [bytes([k, k + 1, k + 2]) for k in range(3)]
+    assert found[[2, 0]].view(dtype)["a"].tolist() == [2, 0]
+    assert len(windows(b"ab", dtype)) == 0
+
+
 def test_our_own_logs_are_read_by_their_index(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     the_slow_way_is_gone(monkeypatch)
     assert len(read_log(record(tmp_path / "x.mcap", tumble(40, 100.0))).tables["/motion"].values) == 40
 
 
 def test_an_index_of_more_than_the_chunk_holds_is_not_kept() -> None:
-    content = _Content(1 << 20)
+    content = _Content(Path("x.mcap"), None, 1 << 20)
     content.add(MessageOffsets(1, np.zeros(1000, dtype=np.uint64)))  # of no chunk at all
     assert content._index == {}
