@@ -11,13 +11,14 @@ Angles of the first two add up and are limited as a hexapod's are. Defaults of t
 """
 
 from math import asin, cos, inf, sin, tan, tanh
+from typing import Final
 
 from ..rotation import ZERO, Quat, Vec3, continuous, flip, flip_rotation, from_euler, rotate
 from ..signals import STANDARD_GRAVITY, VehicleState
 from .damping import CriticalDamping
 from .parameters import ClassicalParameters
 
-_STEEPEST = 1.4  # rad of pitch; Euler rates are computed no nearer to the vertical than this
+_STEEPEST: Final = 1.4  # rad of pitch; Euler rates are computed no nearer to the vertical than this
 
 
 class ClassicalRotation:
@@ -26,19 +27,19 @@ class ClassicalRotation:
     def __init__(self, dt: float, parameters: ClassicalParameters) -> None:
         """Begin with nothing but the tilt of the first force; dt in s."""
         self._dt, self._parameters = dt, parameters
-        self._channels = [WashoutAngle(dt, omega) for omega in parameters.high_pass]
-        self._tilts = [TiltAngle(dt, parameters) for _ in range(2)]
+        roll, pitch, yaw = parameters.high_pass
+        self._roll, self._pitch, self._yaw = WashoutAngle(dt, roll), WashoutAngle(dt, pitch), WashoutAngle(dt, yaw)
+        self._roll_tilt, self._pitch_tilt = TiltAngle(dt, parameters), TiltAngle(dt, parameters)
         self._angles, self._q_WS = ZERO, (1.0, 0.0, 0.0, 0.0)
 
     def step(self, vehicle: VehicleState) -> tuple[Quat, Vec3]:
         """Orientation q_WS and rate w_WS_W (rad/s) of the cue."""
-        roll, pitch, yaw = (channel.step(r) for channel, r in zip(self._channels, self._euler_rates(vehicle), strict=True))
-        kx, ky, _ = self._parameters.tilt_gain
-        pitch_tilt, roll_tilt = self._tilts[0].step(kx * vehicle.f_B[0]), self._tilts[1].step(-ky * vehicle.f_B[1])
-        limited = [
-            _limit(angle, self._parameters.angle_limit) for angle in (_sum(roll, roll_tilt), _sum(pitch, pitch_tilt), yaw)
-        ]
-        (phi, phi_rate), (theta, theta_rate), (psi, psi_rate) = limited
+        rates, gain, bound = self._euler_rates(vehicle), self._parameters.tilt_gain, self._parameters.angle_limit
+        roll_tilt = self._roll_tilt.step(-gain[1] * vehicle.f_B[1])
+        pitch_tilt = self._pitch_tilt.step(gain[0] * vehicle.f_B[0])
+        phi, phi_rate = _limit(_sum(self._roll.step(rates[0]), roll_tilt), bound)
+        theta, theta_rate = _limit(_sum(self._pitch.step(rates[1]), pitch_tilt), bound)
+        psi, psi_rate = _limit(self._yaw.step(rates[2]), bound)
         self._angles = (phi, theta, psi)
         self._q_WS = continuous(flip_rotation(from_euler(psi, theta, phi)), self._q_WS)
         p = phi_rate - psi_rate * sin(theta)
@@ -48,9 +49,9 @@ class ClassicalRotation:
 
     def _euler_rates(self, vehicle: VehicleState) -> Vec3:
         """Roll, pitch and yaw rates (rad/s) that the scaled body rates are in the cabin's attitude."""
-        p, q, r = (k * w for k, w in zip(self._parameters.rotation_gain, vehicle.w_NB_B, strict=True))
-        phi, theta, _ = self._angles
-        theta = min(max(theta, -_STEEPEST), _STEEPEST)
+        gain, w = self._parameters.rotation_gain, vehicle.w_NB_B
+        p, q, r = gain[0] * w[0], gain[1] * w[1], gain[2] * w[2]
+        phi, theta = self._angles[0], min(max(self._angles[1], -_STEEPEST), _STEEPEST)
         turn = q * sin(phi) + r * cos(phi)
         return (p + turn * tan(theta), q * cos(phi) - r * sin(phi), turn / cos(theta))
 
@@ -61,18 +62,18 @@ class WashoutAngle:
     def __init__(self, dt: float, omega: float) -> None:
         """Natural frequency omega in rad/s; dt in s."""
         self._omega, self._damping = omega, CriticalDamping(omega, dt)
-        self._state: tuple[float, float] | None = None
-        self._before = 0.0
+        self._x = self._v = self._before = 0.0
+        self._started = False
 
     def step(self, rate: float) -> tuple[float, float]:
         """Angle (rad) and rate (rad/s) one tick on."""
         omega = self._omega
         rest = rate / (omega * omega)
-        if self._state is None:
-            self._state, self._before = (rest, 0.0), rest
-        x, v = self._state = self._damping.step(*self._state, 0.5 * (self._before + rest))
+        if not self._started:
+            self._x, self._before, self._started = rest, rest, True
+        self._x, self._v = self._damping.step(self._x, self._v, 0.5 * (self._before + rest))
         self._before = rest
-        return v, rate - omega * (omega * x + 2.0 * v)
+        return self._v, rate - omega * (omega * self._x + 2.0 * self._v)
 
 
 class TiltAngle:
@@ -82,14 +83,15 @@ class TiltAngle:
         """Begin tilted for the first force; dt in s."""
         self._damping = CriticalDamping(parameters.tilt_low_pass, dt)
         self._dt, self._rate = dt, parameters.tilt_rate
-        self._state: tuple[float, float] | None = None
-        self._angle = 0.0
+        self._lasting = self._change = self._angle = 0.0  # m/s^2, m/s^3, rad
+        self._started = False
 
     def step(self, force: float) -> tuple[float, float]:
         """Angle (rad) and rate (rad/s) one tick on, for a force in m/s^2."""
-        start = self._state is None
-        self._state = self._damping.step(*(self._state or (force, 0.0)), force)
-        wish = asin(min(max(self._state[0] / STANDARD_GRAVITY, -1.0), 1.0))
+        start, self._started = not self._started, True
+        lasting = force if start else self._lasting
+        self._lasting, self._change = self._damping.step(lasting, self._change, force)
+        wish = asin(min(max(self._lasting / STANDARD_GRAVITY, -1.0), 1.0))
         most = inf if start else self._rate * self._dt
         step = min(max(wish - self._angle, -most), most)
         self._angle += step
