@@ -14,6 +14,7 @@ from typing import Any
 
 import pytest
 
+from atlas_cueing.cueing.horizon_law import Plan
 from atlas_cueing.cueing.horizon_problem import HorizonProblem
 from atlas_cueing.recording import McapRecorder
 from atlas_cueing.scenario import Scenario, build, load_scenario
@@ -29,8 +30,8 @@ from benchmarks.machine import build_kind  # noqa: E402
 RATE_HZ = 120.0
 CHUNK = 32  # ticks
 # Calls a tick as they were, in a flight of c1722 at 120 Hz.
-CUEING = {"attitude": 106, "blend": 127, "force": 120, "classical": 83}
-SMOOTHING, WHEELS, RECORDING = 157, 6, 44
+CUEING = {"attitude": 121, "blend": 146, "force": 134, "classical": 73}
+SMOOTHING, WHEELS, RECORDING = 145, 4, 28
 SOLVES = 180  # a second: three axes, 60 plans each
 ROOM = 2.0
 
@@ -115,7 +116,7 @@ def test_plans_of_a_second(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     of, solved = scenario(tmp_path, 4.0), 0
     states, solve = flight(of), HorizonProblem.solve
 
-    def counted(*arguments: Any) -> list[float] | None:
+    def counted(*arguments: Any) -> Plan | None:
         nonlocal solved
         solved += 1
         return solve(*arguments)
