@@ -6,7 +6,7 @@ from importlib.metadata import version
 from math import degrees, radians
 from pathlib import Path
 from time import perf_counter
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 from ..cueing import attitude_jump
 from ..errors import OutputError, VehicleError
@@ -21,8 +21,8 @@ Progress: TypeAlias = Callable[[float], None]  # called now and then with the fl
 
 # Attitude and body rates of one step agree to dt^2/2 times the angular acceleration: 0.04 deg at 120 Hz and 20 rad/s^2. From
 # here on (assumed) a difference is noted in /status as a jump; at 10 Hz a hard manoeuvre may pass for one.
-JUMP = radians(0.5)
-BLOCK = 32  # ticks taken through the pipeline stage by stage; also from one call of Progress to the next
+JUMP: Final = radians(0.5)
+BLOCK: Final = 32  # ticks taken through the pipeline stage by stage; also from one call of Progress to the next
 
 
 @dataclass(frozen=True, slots=True)

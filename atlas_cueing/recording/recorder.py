@@ -175,7 +175,9 @@ class McapRecorder:
 
     def _check_time(self, what: str, times: Array, later_than: float) -> None:
         """Refuse times that a log cannot hold (a NaN would become a date), and ticks that do not come one after the other."""
-        good = (times >= 0.0) & (times <= LATEST_S) & (np.diff(times, prepend=later_than) > 0.0)
+        good = (times >= 0.0) & (times <= LATEST_S)
+        good[1:] &= times[1:] > times[:-1]
+        good[:1] &= times[:1] > later_than
         if not good.all():
             wrong = int(np.argmin(good))
             before = [later_than, *times][wrong]

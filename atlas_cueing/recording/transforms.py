@@ -28,9 +28,9 @@ def transform_template(channel: int) -> Records:
 def put_transforms(records: Records, times: Times, q_WS: Array, p_WS_W: Array) -> None:
     """Write log times (n,) ns, q_WS (n, 4) and p_WS_W (n, 3) m into n records of `transform_template`."""
     records["log_time"] = records["publish_time"] = times
+    seconds, nanoseconds = (_varint(part) for part in np.divmod(times, np.uint64(1_000_000_000)))
     for part in ("stage", "cabin"):
-        records[part]["seconds"] = _varint(times // np.uint64(1_000_000_000))
-        records[part]["nanoseconds"] = _varint(times % np.uint64(1_000_000_000))
+        records[part]["seconds"], records[part]["nanoseconds"] = seconds, nanoseconds
     records["stage"]["translation"]["value"] = p_WS_W
     records["cabin"]["rotation"]["value"] = q_WS[:, [1, 2, 3, 0]]
 
