@@ -1,6 +1,6 @@
 """Builds the package, with the code that runs every tick compiled by mypyc (https://mypyc.readthedocs.io).
 
-The compiled modules are the same Python source and compute the same bits; they take a tenth of the time. A wheel, and so
+The compiled modules are the same Python source and compute the same bits, in a tenth to a half of the time. A wheel, and so
 `pip install .`, is compiled where there is a C compiler, and says so when there is none. An editable install stays Python, so
 that a change of the source is a change of the program. ATLAS_CUEING_COMPILE=0 leaves the compiler out, =1 insists on it.
 """

@@ -71,7 +71,7 @@ class ChunkEncoder:
             self._template[name] = flat_template(channels[name], size)
             self._offsets[name] = offset
             offset += flat_dtype(size).itemsize
-        self._ticks = repeat(self._template, 0)  # used again for every chunk: new memory costs more than what is written to it
+        self._ticks = repeat(self._template, 0)  # used again for every chunk, and no memory asked for anew
 
     def encode(self, rows: Array, times: Times, statuses: Sequence[Extra]) -> EncodedChunk:
         """Chunk of rows (n, ROW or LIVE_ROW) in order of time, with log times (n,) in ns; /felt and /tf are made from them."""

@@ -7,7 +7,7 @@ from typing import Annotated, TypeAlias
 from pydantic import ValidationInfo, field_validator, model_validator
 
 from ..errors import InputError
-from ..rotation import Vec3, norm
+from ..rotation import ZERO, Vec3, add, norm
 from ..signals import StageLimits, WheelLimits
 from ..wheels import Geometry, OmniWheel
 from .table import ONE_OR_THREE, THREE, Finite, Table, number, object_to, refuse, text
@@ -51,7 +51,8 @@ class WheelTable(Table):
 
 @lru_cache(maxsize=64)  # of ten thousand platforms that a sweep makes, few have wheels of their own
 def _wheel(contact: Vec3, drive: Vec3, radius: float) -> OmniWheel:
-    return OmniWheel.along(contact, drive, radius)
+    # 0 and -0 are one key: the sum makes both 0, so that the wheel does not depend on which came first
+    return OmniWheel.along(add(contact, ZERO), add(drive, ZERO), radius)
 
 
 class WheelLimitsTable(Table):

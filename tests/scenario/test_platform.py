@@ -10,8 +10,9 @@ import pytest
 from pydantic import ValidationError
 
 from atlas_cueing.scenario import Platform, load_platform, presets
+from atlas_cueing.scenario.platform import WheelTable
 from atlas_cueing.scenario.reading import read_toml
-from atlas_cueing.wheels import Wheels, headroom
+from atlas_cueing.wheels import OmniWheel, Wheels, headroom
 
 ORACLES = json.loads((Path(__file__).parents[1] / "oracles" / "kinematics.json").read_text())
 NAMES = ["atlas-1.5m", "atlas-2.9m", "atlas-orthogonal", "atlas-tabletop"]
@@ -109,6 +110,13 @@ def test_refused(table: str, key: str, bad: object, message: str) -> None:
 def test_names_that_are_no_file_names(name: object) -> None:
     with pytest.raises(ValidationError, match="letters, digits"):
         Platform.model_validate(good() | {"name": name})
+
+
+@pytest.mark.parametrize(("zero", "radius"), [(0.0, 0.117), (-0.0, 0.118)])
+def test_a_wheel_is_the_same_whichever_zero_came_first(zero: float, radius: float) -> None:
+    """They are equal, and different bits, which would go into the logs."""
+    table = WheelTable(contact=(0.6, zero, -0.8), drive=(zero, 1.0, zero), radius_m=radius)
+    assert repr(table.wheel()) == repr(OmniWheel.along((0.6, 0.0, -0.8), (0.0, 1.0, 0.0), radius))
 
 
 def test_two_wheels_are_not_enough() -> None:
