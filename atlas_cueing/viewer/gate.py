@@ -46,13 +46,14 @@ def silence(loop: asyncio.AbstractEventLoop | None) -> None:
 
 def _with_gate(serve: Callable[..., Any], connection: type[Any]) -> Callable[..., Any]:
     class Counted(connection):  # type: ignore[misc]
-        """A connection that is cut when there are too many."""
+        """A connection for which another may have to go."""
 
         def connection_made(self, transport: asyncio.BaseTransport) -> None:
-            """Take it up, or cut it at once."""
+            """Take it up; when there are too many, the one goes that has said nothing for longest."""
             super().connection_made(transport)
-            if len(self.server.handlers) > MOST_CONNECTIONS:
-                self.transport.abort()
+            held = [each for each in self.server.handlers if not each.transport.is_closing()]
+            if len(held) > MOST_CONNECTIONS:
+                next(each for each in held if each.request is None).transport.abort()
 
     def gated_serve(handler: Any, host: Any, port: Any, *, process_request: Answer, **options: Any) -> Any:
         """As `serve`, with the gate before every handshake and bounds on what a client may send."""

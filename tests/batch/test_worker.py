@@ -5,9 +5,10 @@ import os
 import subprocess
 import sys
 from pathlib import Path
-from time import monotonic, sleep
+from time import sleep
 
 import pytest
+from waiting import until
 
 from atlas_cueing.batch import workers
 from atlas_cueing.batch.folder import FolderResults
@@ -133,7 +134,4 @@ def test_when_the_worker_is_killed_the_run_goes(tmp_path: Path, monkeypatch: pyt
     process.kill()
     process.communicate(timeout=60)  # stdout ends only when the run, which holds it too, has let go of it
     state = Path(f"/proc/{pid.read_text()}/stat")
-    deadline = monotonic() + 60.0
-    while monotonic() < deadline and state.exists() and state.read_text().split()[2] not in "ZX":
-        sleep(0.02)
-    assert not state.exists() or state.read_text().split()[2] in "ZX"
+    until(lambda: not state.exists() or state.read_text().split()[2] in "ZX", 60.0)

@@ -5,11 +5,11 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from importlib.metadata import entry_points, version
 from pathlib import Path
 
 import pytest
+from waiting import until
 
 from atlas_cueing import batch
 from atlas_cueing.cli import main
@@ -108,9 +108,7 @@ def test_a_signal_ends_a_run_with_a_finished_log(tmp_path: Path, number: signal.
         [*START, "run", "s.toml", "--json"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
     part = tmp_path / "short.mcap.part"
-    deadline = time.monotonic() + 60.0
-    while time.monotonic() < deadline and not (part.exists() and part.stat().st_size > 100_000):
-        time.sleep(0.02)
+    until(lambda: part.exists() and part.stat().st_size > 100_000, 60.0)
     os.kill(process.pid, number)
     out, err = process.communicate(timeout=60.0)
     assert process.returncode == 1

@@ -8,6 +8,7 @@ from pathlib import Path
 from time import monotonic, sleep
 
 from recording.flights import ATTACHMENTS, HEAD, METADATA, tumbling_at
+from waiting import until
 
 from atlas_cueing.recording import LiveWriter, McapRecorder
 from atlas_cueing.signals import Tick, Timing
@@ -48,11 +49,3 @@ def child(function: Callable[[], None]) -> Iterator[int]:
         yield pid
     finally:
         until(lambda: waitpid(pid, WNOHANG)[0] == pid)
-
-
-def until(what: Callable[[], bool], seconds: float = 10.0) -> None:
-    """Wait for something that has to happen, and soon."""
-    deadline = monotonic() + seconds
-    while not what():
-        assert monotonic() < deadline, f"still waiting after {seconds} s"
-        sleep(0.005)

@@ -6,10 +6,11 @@ from select import select
 from time import sleep
 
 import pytest
+from waiting import until
 
 from atlas_cueing.live.forked import Ended, Forked, Left
 
-from .riding import child, until
+from .riding import child
 
 
 def patient(left: Left) -> bytes:

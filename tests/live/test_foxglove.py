@@ -13,6 +13,7 @@ from typing import Any
 
 import pytest
 from recording.flights import HEAD
+from waiting import until
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
@@ -22,7 +23,7 @@ from atlas_cueing.recording import LiveWriter, Ring, live_ring
 from atlas_cueing.recording.schemas import message_class, schema_of
 from atlas_cueing.signals import LIVE_TOPICS, live_row
 
-from .riding import STARTED_NS, child, live_recorder, live_tick, ride, until
+from .riding import STARTED_NS, child, live_recorder, live_tick, ride
 
 PROTOCOL = "foxglove.sdk.v1"
 TOPICS = [*(topic.name for topic in LIVE_TOPICS), "/tf", "/status"]

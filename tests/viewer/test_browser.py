@@ -6,7 +6,8 @@ from pathlib import Path
 from threading import Event, Thread
 from typing import Any
 
-from live.riding import live_tick, until
+from live.riding import live_tick
+from waiting import until
 
 from atlas_cueing.recording import LiveWriter, live_ring
 from atlas_cueing.recording.buttons import Buttons

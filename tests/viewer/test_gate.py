@@ -4,7 +4,6 @@ import gc
 import http.client
 import socket
 import struct
-import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from typing import Any
@@ -12,12 +11,14 @@ from typing import Any
 import msgspec
 import pytest
 import viser
+from waiting import until
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
 from atlas_cueing.viewer import gate
 from atlas_cueing.viewer.gate import LARGEST_MESSAGE, MOST_CLIENTS, MOST_CONNECTIONS, admits
+from atlas_cueing.viewer.server import close_server, open_server
 
 SPEAKS = f"viser-v{viser.__version__}"
 HANDSHAKE = (
@@ -62,14 +63,6 @@ def said(server: Any, request: bytes) -> bytes:
 def many(server: Any, count: int, begin: Callable[[Any], Any]) -> Iterator[list[Any]]:
     with ExitStack() as stack:
         yield [stack.enter_context(begin(server)) for _ in range(count)]
-
-
-def eventually(holds: Callable[[], bool]) -> bool:
-    """Whether it holds within half a minute: what a server notices, it notices in its own time."""
-    end = time.monotonic() + 30.0
-    while not holds() and time.monotonic() < end:
-        time.sleep(0.02)
-    return holds()
 
 
 @pytest.mark.parametrize(
@@ -117,7 +110,7 @@ def test_what_a_page_of_another_host_sends_is_not_read(server: Any) -> None:
     assert said(server, evil.encode() + 3 * frame).startswith(b"HTTP/1.1 403")
     with joined(server) as page_of_ours:
         page_of_ours.send(moved(ours, 0.9))
-        assert eventually(lambda: bool(ours.value == 0.9))
+        until(lambda: ours.value == 0.9)
     assert theirs.value == 0.5
 
 
@@ -152,7 +145,7 @@ def test_nonsense_for_a_slider_is_dropped_in_silence(
     with joined(server) as ours:
         ours.send(update(slider, updates))
         ours.send(moved(other, 0.9))
-        assert eventually(lambda: bool(other.value == 0.9))
+        until(lambda: other.value == 0.9)
     assert slider.value == 0.5
     assert page(server) == 200
     assert capfd.readouterr() == ("", "")
@@ -174,7 +167,7 @@ def test_there_are_not_ever_more_clients(server: Any) -> None:
             joined(server)
         assert page(server) == 200, "which tells why"
         clients[0].close()
-        assert eventually(lambda: _let_in(server))
+        until(lambda: _let_in(server))
 
 
 def _let_in(server: Any) -> bool:
@@ -191,12 +184,26 @@ def half_a_request(server: Any) -> socket.socket:
     return client
 
 
-def test_connections_that_never_ask_are_few_and_do_not_stay(server: Any) -> None:
-    with many(server, MOST_CONNECTIONS + 20, half_a_request) as clients:
-        assert eventually(lambda: sum(map(_hung_up, clients)) >= 20)
-        assert page_or_none(server) is None, "all places are taken ..."
-        assert eventually(lambda: page_or_none(server) == 200), "... for some seconds"
-        assert eventually(lambda: all(map(_hung_up, clients)))
+@contextmanager
+def patient(monkeypatch: pytest.MonkeyPatch, seconds: float) -> Iterator[Any]:
+    monkeypatch.setattr(gate, "PATIENCE_S", seconds)
+    served = open_server(0)
+    try:
+        yield served
+    finally:
+        close_server(served)
+
+
+def test_of_connections_that_never_ask_the_oldest_make_room(monkeypatch: pytest.MonkeyPatch) -> None:
+    with patient(monkeypatch, 600.0) as server, many(server, MOST_CONNECTIONS + 20, half_a_request) as clients:
+        until(lambda: all(map(_hung_up, clients[:20])))
+        assert page(server) == 200
+        assert not any(map(_hung_up, clients[21:]))
+
+
+def test_connections_that_never_ask_do_not_stay(monkeypatch: pytest.MonkeyPatch) -> None:
+    with patient(monkeypatch, 0.1) as server, many(server, 3, half_a_request) as clients:
+        until(lambda: all(map(_hung_up, clients)))
 
 
 def _hung_up(client: socket.socket) -> bool:
@@ -207,13 +214,6 @@ def _hung_up(client: socket.socket) -> bool:
         return False
     except OSError:
         return True
-
-
-def page_or_none(server: Any) -> int | None:
-    try:
-        return page(server)
-    except (OSError, http.client.HTTPException):
-        return None
 
 
 @pytest.mark.parametrize(

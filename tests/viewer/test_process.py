@@ -7,7 +7,8 @@ from pathlib import Path
 from urllib.request import urlopen
 
 import pytest
-from live.riding import child, live_tick, until
+from live.riding import child, live_tick
+from waiting import until
 
 from atlas_cueing.errors import InputError
 from atlas_cueing.recording import LiveWriter, live_ring
