@@ -12,7 +12,7 @@ from ..cueing import attitude_jump
 from ..errors import OutputError, VehicleError
 from ..pipeline import Pipeline
 from ..recording import McapRecorder
-from ..scenario import Evaluation, Scenario, evaluate, prepare
+from ..scenario import Evaluation, Evaluator, Scenario, prepare
 from ..signals import Sink, Vehicle, VehicleState
 from ..vehicles import JsbsimVehicle, SignalFlight, SignalVehicle
 from .interrupt import Interrupt
@@ -22,7 +22,7 @@ Progress: TypeAlias = Callable[[float], None]  # called now and then with the fl
 # Attitude and body rates of one step agree to dt^2/2 times the angular acceleration: 0.04 deg at 120 Hz and 20 rad/s^2. From
 # here on (assumed) a difference is noted in /status as a jump; at 10 Hz a hard manoeuvre may pass for one.
 JUMP: Final = radians(0.5)
-BLOCK: Final = 32  # ticks taken through the pipeline stage by stage; also from one call of Progress to the next
+BLOCK: Final = 256  # ticks taken through the pipeline stage by stage; also from one call of Progress to the next
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +31,7 @@ class RunResult:
 
     result: ok, vehicle_failed, interrupted or recording_failed; `reason` says why it is not ok.
     log: the finished log; after recording_failed the .part with what could be written.
-    wall: time from loading the vehicle to the last tick, s.
+    wall: time from loading the vehicle to the last tick recorded, s.
     """
 
     result: str
@@ -82,6 +82,7 @@ def run_scenario(scenario: Scenario, log: Path, *, progress: Progress | None = N
     flown = Flown()
     loaded = _load(scenario, flown)
     vehicle, pipeline = prepare(scenario, loaded) if loaded else (None, None)
+    evaluator = Evaluator(scenario.platform)
     recorder = McapRecorder(
         log,
         head_S=scenario.platform.head_S,
@@ -89,6 +90,7 @@ def run_scenario(scenario: Scenario, log: Path, *, progress: Progress | None = N
         attachments=scenario.attachments(),
         chunk_ticks=scenario.file.recording.chunk_ticks,
         skip_topics=scenario.file.recording.skip,
+        observer=evaluator.add,
     )
     try:
         _record(vehicle, pipeline, recorder, flown, progress)
@@ -97,7 +99,7 @@ def run_scenario(scenario: Scenario, log: Path, *, progress: Progress | None = N
         part = log.with_name(f"{log.name}.part")
         return RunResult("recording_failed", str(error), part, flown.ticks, flown.time, perf_counter() - begun, Evaluation())
     wall = perf_counter() - begun
-    return RunResult(flown.result, flown.reason, log, flown.ticks, flown.time, wall, evaluate(log, scenario.platform))
+    return RunResult(flown.result, flown.reason, log, flown.ticks, flown.time, wall, evaluator.evaluation())
 
 
 def fly(vehicle: Vehicle, pipeline: Pipeline, sink: Sink, flown: Flown, progress: Progress | None, stop: Interrupt) -> None:

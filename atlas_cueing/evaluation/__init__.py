@@ -2,14 +2,13 @@
 
 from .consistency import Consistency, consistency, reintegrate
 from .deviation import vehicle_attitude
-from .flight import BLOCK_TICKS, TOPICS, Columns, Flight, gathered
+from .flight import BLOCK_TICKS, Columns, Flight, gathered
 from .limits import LimitUse, limit_use, violations
 from .metrics import Metrics, metrics
 from .ridden import ridden
 
 __all__ = [
     "BLOCK_TICKS",
-    "TOPICS",
     "Columns",
     "Consistency",
     "Flight",

@@ -13,9 +13,6 @@ BLOCK_TICKS = 7168
 """Ticks a block: its temporaries of 57 kB stay in the cache, they fill whole rows of `vestibular.Sensing`, and a product of
 matrices of them is small enough for BLAS not to wake a thread for each core."""
 
-TOPICS = ("/vehicle", "/cue", "/motion", "/wheels", "/felt")
-"""Of the log, those that a flight is read from."""
-
 
 class Columns(Protocol):
     """Whatever gives logged columns by topic and name, as `recording.Log` does."""

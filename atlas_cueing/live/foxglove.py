@@ -16,7 +16,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..recording import Ring, RingReader
-from ..recording.chunk import ELAPSED, ChunkEncoder
+from ..recording.chunk import ELAPSED, ChunkEncoder, with_felt
 from ..recording.live import END, STATUS, TICK, status
 from ..recording.log import Status
 from ..recording.schemas import STATUS as STATUS_TOPIC
@@ -83,7 +83,8 @@ class Feed:
         self.topics = (*(topic.name for topic in LIVE_TOPICS), TF, STATUS_TOPIC)
         self.over = False
         self._reader = RingReader(ring)
-        self._encoder = ChunkEncoder(head_S, {name: k for k, name in enumerate(self.topics)}, LIVE_TOPICS)
+        self._head_S = head_S
+        self._encoder = ChunkEncoder({name: k for k, name in enumerate(self.topics)}, LIVE_TOPICS)
         self._status_class = message_class(*schema_of(STATUS_TOPIC))
         self._started = self._latest = started_ns
         self._state: Status | None = None
@@ -109,7 +110,8 @@ class Feed:
         rows = np.frombuffer(tick)[None]
         times = live_log_times(rows[:, ELAPSED], self._started)
         self._latest = int(times[0])
-        return [(self.topics[k], at, content) for k, at, content in self._encoder.encode(rows, times, ()).messages()]
+        chunk = self._encoder.encode(with_felt(rows, self._head_S), times, ())
+        return [(self.topics[k], at, content) for k, at, content in chunk.messages()]
 
     def _status(self, new: Status) -> tuple[str, int, bytes]:
         message = self._status_class(time_s=new.time, state=new.state, reason=new.reason)

@@ -2,7 +2,7 @@
 
 from .live import LiveWriter, live_ring
 from .log import Log, Status, Table
-from .reader import read_blocks, read_log
+from .reader import read_log
 from .recorder import RUN_METADATA, McapRecorder
 from .ring import Ring, RingReader
 
@@ -16,6 +16,5 @@ __all__ = [
     "Status",
     "Table",
     "live_ring",
-    "read_blocks",
     "read_log",
 ]

@@ -51,11 +51,10 @@ class EncodedChunk:
 class ChunkEncoder:
     """Encodes blocks of ticks; `channels` names the topics to write and their ids, the others are left out.
 
-    `topics` are TOPICS, or LIVE_TOPICS for live rows.
+    `topics` are TOPICS, or LIVE_TOPICS for a live log.
     """
 
-    def __init__(self, head_S: Vec3, channels: Mapping[str, int], topics: Sequence[Topic] = TOPICS) -> None:
-        self._head_S = head_S
+    def __init__(self, channels: Mapping[str, int], topics: Sequence[Topic] = TOPICS) -> None:
         self._tf_channel = channels.get(TF)
         self._tf_template = transform_template(channels.get(TF, 0))
         self._tf_slot = -1.0
@@ -71,35 +70,35 @@ class ChunkEncoder:
             self._template[name] = flat_template(channels[name], size)
             self._offsets[name] = offset
             offset += flat_dtype(size).itemsize
-        self._ticks = repeat(self._template, 0)  # used again for every chunk, and no memory asked for anew
+        self._records = repeat(self._template, 0)  # used again for every chunk, and no memory asked for anew
 
-    def encode(self, rows: Array, times: Times, statuses: Sequence[Extra]) -> EncodedChunk:
-        """Chunk of rows (n, ROW or LIVE_ROW) in order of time, with log times (n,) in ns; /felt and /tf are made from them."""
-        ticks = self._encode_ticks(rows, times)
-        extras = self._transforms(rows, times)
+    def encode(self, ticks: Array, times: Times, statuses: Sequence[Extra]) -> EncodedChunk:
+        """Chunk of ticks (n, fields of all topics) in order of time, with log times (n,) in ns; /tf is made from them."""
+        records = self._encode_ticks(ticks, times)
+        extras = self._transforms(ticks, times)
         if statuses:
             extras = sorted([*extras, *statuses], key=itemgetter(0, 2))  # by place and log time
-        return EncodedChunk(_merge(ticks, extras), self._index(ticks, times, extras))
+        return EncodedChunk(_merge(records, extras), self._index(records, times, extras))
 
-    def _encode_ticks(self, rows: Array, times: Times) -> Records:
+    def _encode_ticks(self, ticks: Array, times: Times) -> Records:
         """One structured record a tick with all its messages, until the next call."""
-        if len(self._ticks) < len(rows):
-            self._ticks = repeat(self._template, len(rows))
-        ticks = self._ticks[: len(rows)]
+        if len(self._records) < len(ticks):
+            self._records = repeat(self._template, len(ticks))
+        records = self._records[: len(ticks)]
         for name, columns in self._columns.items():
-            ticks[name]["log_time"] = ticks[name]["publish_time"] = times
-            put(ticks[name], felt_columns(rows, self._head_S) if name == "/felt" else rows[:, columns])
-        return ticks
+            records[name]["log_time"] = records[name]["publish_time"] = times
+            put(records[name], ticks[:, columns])
+        return records
 
-    def _transforms(self, rows: Array, times: Times) -> list[Extra]:
+    def _transforms(self, ticks: Array, times: Times) -> list[Extra]:
         """A /tf message after each tick that is the first one in its sixtieth of a second."""
-        if self._tf_channel is None or not len(rows):
+        if self._tf_channel is None or not len(ticks):
             return []
-        slots = np.floor(rows[:, 0] * RATE_HZ + 1e-6)  # a tick due at k/60 s may be a rounding error early
+        slots = np.floor(ticks[:, 0] * RATE_HZ + 1e-6)  # a tick due at k/60 s may be a rounding error early
         due = np.flatnonzero(np.diff(slots, prepend=self._tf_slot))
         self._tf_slot = float(slots[-1])
         records = repeat(self._tf_template, len(due))
-        put_transforms(records, times[due], rows[due, _Q], rows[due, _P])
+        put_transforms(records, times[due], ticks[due, _Q], ticks[due, _P])
         data, size = records.tobytes(), records.itemsize
         each = [data[start : start + size] for start in range(0, len(data), size)]
         return list(map(Extra, (due + 1).tolist(), itertools.repeat(self._tf_channel), times[due].tolist(), each))
@@ -118,6 +117,11 @@ class ChunkEncoder:
         for channel in sorted(set(channels)):
             index[channel] = entries[of_channel == channel]
         return index
+
+
+def with_felt(rows: Array, head_S: Vec3) -> Array:
+    """All numbers of ticks (n, fields of TOPICS or LIVE_TOPICS) from rows (n, ROW or LIVE_ROW): /felt comes last."""
+    return np.hstack([rows, felt_columns(rows, head_S)])
 
 
 def felt_columns(rows: Array, head_S: Vec3) -> Array:

@@ -8,9 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import LogError
+from ..signals import TOPICS
 from .wire import Array, Times
-
-_NUMBER = 8  # bytes
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +45,15 @@ class Log:
     statuses: tuple[Status, ...]
     transforms: Table | None = None
 
+    @classmethod
+    def of_ticks(cls, ticks: Array) -> "Log":
+        """A log of ticks (n, fields of TOPICS) that are in memory, as an observer of `McapRecorder` is given them."""
+        tables, start = {}, 0
+        for topic in TOPICS:
+            end = start + len(topic.fields)
+            tables[topic.name], start = Table(topic.fields, ticks[:, start:end]), end
+        return cls(Path(), tables, {}, {}, ())
+
     def column(self, topic: str, field: str) -> Array:
         """One field over the whole run, (n,), in the unit of its name. Raises LogError if the log does not have it."""
         table = self._table(topic)
@@ -78,10 +86,6 @@ class Growing:
         """A table of no messages yet."""
         self._fields, self._values, self._times = fields, bytearray(), bytearray()
 
-    def __len__(self) -> int:
-        """Messages it has."""
-        return len(self._times) // _NUMBER
-
     def add(self, values: Array, times: Times) -> None:
         """Values (n, fields) and log times (n,) that follow."""
         self._values += np.ascontiguousarray(values).data.cast("B")
@@ -89,16 +93,6 @@ class Growing:
 
     def table(self) -> Table:
         """What was added, to be read only."""
-        return self._table(np.frombuffer(self._values).reshape(-1, len(self._fields)), np.frombuffer(self._times, np.uint64))
-
-    def cut(self, messages: int) -> Table:
-        """The first so many messages, or all if there are fewer, in columns; they are dropped here."""
-        whole = self.table()
-        table = self._table(whole.values[:messages].copy("F"), whole.log_times[:messages].copy())
-        del whole  # what is looked at cannot be shortened
-        del self._values[: table.values.nbytes], self._times[: table.log_times.nbytes]
-        return table
-
-    def _table(self, values: Array, times: Times) -> Table:
+        values, times = np.frombuffer(self._values).reshape(-1, len(self._fields)), np.frombuffer(self._times, np.uint64)
         values.flags.writeable = times.flags.writeable = False
         return Table(self._fields, values, times)

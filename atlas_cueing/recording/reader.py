@@ -1,7 +1,7 @@
-"""Reads a complete log back as columns, whole chunks at a time, at once or in blocks."""
+"""Reads a complete log back as columns, whole chunks at a time."""
 
 import struct
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,7 @@ from mcap.records import Attachment, Channel, Chunk, DataEnd, McapRecord, Metada
 from numpy.typing import NDArray
 
 from ..errors import LogError
-from .log import Growing, Log, Status, Table
+from .log import Growing, Log, Status
 from .message_starts import BOUNDARY, MESSAGE_HEAD, Starts, message_starts, windows
 from .recorder import RUN_METADATA
 from .records import MessageOffsets, RecordReader, unpack
@@ -35,37 +35,11 @@ def read_log(path: Path, max_bytes: int = MAX_LOG) -> Log:
     Raises:
         LogError: the file cannot be read, is cut or damaged (every checksum is checked), or is not a log of ours.
     """
-    (log,) = read_blocks(path, max_bytes=max_bytes)
-    return log
-
-
-def read_blocks(
-    path: Path, ticks: int | None = None, topics: Collection[str] | None = None, max_bytes: int = MAX_LOG
-) -> Iterator[Log]:
-    """Read a complete log of ours block by block, with memory for one block.
-
-    Every block but the last has `ticks` messages of each topic, in columns (contiguous along the messages); the last one has
-    what is left, which may be nothing. Metadata, attachments and states are those found so far: all of them in the last
-    block, which has /tf of the whole log as well. What is wrong with the file is raised where it is met, when blocks have
-    been given already.
-
-    Args:
-        path: as in `read_log`.
-        ticks: length of a block; without it there is one, of everything.
-        topics: those whose numbers are wanted, all by default; the tables of others stay empty. Their bytes are checked by
-            checksum, their fields are not looked at.
-        max_bytes: bound on the unpacked messages of the whole log.
-
-    Raises:
-        LogError: as `read_log`.
-    """
     with _telling(path), path.open("rb") as stream:
-        content = _Content(path, topics, max_bytes)
+        content = _Content(path, max_bytes)
         for record in RecordReader(stream).records():
             content.add(record)
-            while ticks and content.ticks >= ticks:
-                yield content.cut(ticks)
-        yield content.rest()
+        return content.log()
 
 
 @contextmanager
@@ -83,15 +57,14 @@ def _telling(path: Path) -> Iterator[None]:
 
 
 class _Content:
-    """What has been found in a log so far, and was not cut off as a block."""
+    """What has been found in a log so far."""
 
-    def __init__(self, path: Path, topics: Collection[str] | None, max_bytes: int) -> None:
-        self._path, self._topics, self._left = path, topics, max_bytes
+    def __init__(self, path: Path, max_bytes: int) -> None:
+        self._path, self._left = path, max_bytes
         self._schemas: dict[int, Schema] = {}
         self._channels: dict[int, Channel] = {}
-        self._fields: dict[int, tuple[str, ...]] = {}  # of the channels with flat messages that are wanted
+        self._fields: dict[int, tuple[str, ...]] = {}  # of the channels with flat messages
         self._tables: dict[int, Growing] = {}
-        self._read: list[Growing] = []  # of these, the ones that are filled
         self._transforms: dict[int, Growing] = {}
         self._status_class: dict[int, Any] = {}
         self._statuses: list[Status] = []
@@ -124,26 +97,13 @@ class _Content:
             case DataEnd() if RUN_METADATA not in self._metadata:
                 raise LogError(f"this is no log of atlas_cueing: it has no metadata record {RUN_METADATA!r}")
 
-    @property
-    def ticks(self) -> int:
-        """Messages that every topic has by now."""
-        return min(map(len, self._read), default=0)
-
-    def cut(self, ticks: int) -> Log:
-        """The first ticks as a block, which are dropped here."""
-        return self._log({channel: growing.cut(ticks) for channel, growing in self._tables.items()}, None)
-
-    def rest(self) -> Log:
-        """All that is left, when there are no more records."""
+    def log(self) -> Log:
+        """All of it, when there are no more records."""
         self._finish_chunk()
         poses = [growing.table() for growing in self._transforms.values()]
-        tables = {channel: growing.table() for channel, growing in self._tables.items()}
-        return self._log(tables, poses[0] if poses else None)
-
-    def _log(self, tables: dict[int, Table], transforms: Table | None) -> Log:
-        topics = {self._channels[channel].topic: table for channel, table in tables.items()}
+        tables = {self._channels[channel].topic: growing.table() for channel, growing in self._tables.items()}
         metadata = self._metadata.get(RUN_METADATA, {})
-        return Log(self._path, topics, metadata, self._attachments, tuple(self._statuses), transforms)
+        return Log(self._path, tables, metadata, self._attachments, tuple(self._statuses), poses[0] if poses else None)
 
     def _charge(self, size: int) -> None:
         """Bound what is kept in memory; schemas and files count as messages do."""
@@ -159,16 +119,10 @@ class _Content:
         if channel.topic == STATUS:
             self._status_class[channel.id] = message_class(schema.name, schema.data)
         elif channel.topic == TF:
-            if self._wants(TF):
-                self._transforms[channel.id] = Growing(POSE)
+            self._transforms[channel.id] = Growing(POSE)
         elif (fields := flat_fields(schema.name, schema.data)) is not None:
             self._tables[channel.id] = Growing(fields)
-            if self._wants(channel.topic):
-                self._fields[channel.id] = fields
-                self._read.append(self._tables[channel.id])
-
-    def _wants(self, topic: str) -> bool:
-        return self._topics is None or topic in self._topics
+            self._fields[channel.id] = fields
 
     def _keep_index(self, offsets: MessageOffsets) -> None:
         """Keep what the log says of the present chunk, unless it names more messages than fit in."""

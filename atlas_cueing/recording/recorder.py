@@ -2,7 +2,7 @@
 
 import fcntl
 import os
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from struct import Struct
 
@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import OutputError
 from ..rotation import Vec3
 from ..signals import LIVE_TOPICS, TOPICS, Tick, tick_row
-from .chunk import ELAPSED, LIVE_ROW, ROW, ChunkEncoder, Extra
+from .chunk import ELAPSED, LIVE_ROW, ROW, ChunkEncoder, Extra, with_felt
 from .container import Container
 from .schemas import STATUS, STATUS_SCHEMA, TF, message_class, schema_of, status_schema
 from .wire import EPOCH_NS, LATEST_S, Array, Times, live_log_times, log_times, record_template
@@ -40,6 +40,7 @@ class McapRecorder:
         chunk_ticks: int = 512,
         skip_topics: Collection[str] = (),
         started_ns: int | None = None,
+        observer: Callable[[Array], None] | None = None,
     ) -> None:
         """Open the log.
 
@@ -52,6 +53,8 @@ class McapRecorder:
             skip_topics: topics left out.
             started_ns: makes it a live log: wall clock when the loop started, ns since 1970; log time is this plus the real
                 time elapsed. Without it log time is simulated time from 2000-01-01 on.
+            observer: is given the numbers of each chunk that was written, (n, fields of TOPICS, or of LIVE_TOPICS for a live
+                log), also those of topics left out; if it raises, `append` and `flush` do, and it is not called again.
 
         Raises:
             OutputError: the file cannot be written, a topic is unknown or a chunk too large or empty.
@@ -64,6 +67,7 @@ class McapRecorder:
         self._metadata = dict(metadata)
         self._rows = bytearray()
         self._started = started_ns
+        self._observer = observer
         self._topics = TOPICS if started_ns is None else LIVE_TOPICS
         self._row = ROW if started_ns is None else LIVE_ROW
         self._full = chunk_ticks * self._row * 8  # bytes of rows that make a chunk
@@ -135,7 +139,7 @@ class McapRecorder:
         for name, data in attachments.items():
             self._container.add_attachment(name, "application/toml", data)
         self._status_class = message_class(STATUS_SCHEMA, status_schema())
-        self._encoder = ChunkEncoder(self._head_S, self._channels, self._topics)
+        self._encoder = ChunkEncoder(self._channels, self._topics)
 
     def flush(self) -> None:
         """Write the ticks and states kept so far as one chunk. Raises as `append`."""
@@ -145,13 +149,22 @@ class McapRecorder:
         times = self._log_times(rows)
         self._latest = float(rows[-1, 0]) if len(rows) else self._latest
         self._latest_log_time = int(times[-1]) if len(rows) else self._latest_log_time
-        chunk = self._encoder.encode(rows, times, self._status_records(rows[:, 0], times))
+        ticks = with_felt(rows, self._head_S)
+        chunk = self._encoder.encode(ticks, times, self._status_records(ticks[:, 0], times))
         self._statuses = []
         try:
             if chunk.data:
                 self._container.add_chunk(chunk)
         except OSError as error:
             raise self._fail(error) from error
+        self._observe(ticks)
+
+    def _observe(self, ticks: Array) -> None:
+        """Call the observer, which is forgotten when it raises: the log can still be finished."""
+        observer, self._observer = self._observer, None
+        if observer:
+            observer(ticks)
+        self._observer = observer
 
     def _log_times(self, rows: Array) -> Times:
         """Log time (ns) of each tick."""

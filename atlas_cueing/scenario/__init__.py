@@ -1,7 +1,7 @@
 """Scenario and platform files: what to fly, on which platform, cued how. The only place that knows TOML."""
 
 from .build import build, prepare
-from .evaluate import Evaluation, evaluate
+from .evaluate import Evaluation, Evaluator, evaluate
 from .load import load_platform, load_scenario
 from .platform import Platform, presets
 from .recorded import RecordedFlight, recorded_vehicle
@@ -10,6 +10,7 @@ from .sweep import Variant, load_variants, scenario_files
 
 __all__ = [
     "Evaluation",
+    "Evaluator",
     "Platform",
     "RecordedFlight",
     "Scenario",

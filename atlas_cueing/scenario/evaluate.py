@@ -1,15 +1,19 @@
-"""The figures of a finished log, from the log alone."""
+"""The figures of a run: while it is recorded, or from its log alone, to the last bit the same."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..errors import LogError
-from ..evaluation import BLOCK_TICKS, TOPICS, Consistency, Flight, LimitUse, Metrics, ridden, violations
-from ..recording import Log, read_blocks, read_log
-from ..signals import TIMING
+from ..evaluation import BLOCK_TICKS, Consistency, Flight, LimitUse, Metrics, ridden, violations
+from ..recording import Log, read_log
+from ..signals import TIMING, TOPICS
 from .platform import Platform
 
-_ANY_LENGTH = 1 << 60  # bytes of messages: block by block they take no memory
+_ANY_LENGTH = 1 << 60  # bytes of messages: the run was ours
+_NUMBERS = sum(len(topic.fields) for topic in TOPICS)  # of a tick
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,25 +26,51 @@ class Evaluation:
 
 
 def evaluate(log: Path, platform: Platform) -> Evaluation:
-    """Read the log once, block by block, and compute everything; a log that cannot be read back is itself a violation.
+    """Read the log and compute everything; a log that cannot be read back is itself a violation.
 
-    Limits are looked at over the whole run, metrics of a live one over its longest stretch in state `running`; that is known
-    only at the end, so a live log is read as a whole.
+    Limits are looked at over the whole run, metrics of a live one over its longest stretch in state `running`.
     """
     found = _Found(platform)
     try:
-        for content in read_blocks(log, BLOCK_TICKS, TOPICS, _ANY_LENGTH):
-            if TIMING.name in content.tables:
-                found.add_live(read_log(log))
-                break
-            found.add(Flight.of(content))
+        found.add_log(read_log(log, _ANY_LENGTH))
     except LogError as error:
         return Evaluation(violations=(f"not evaluated: {error}",))
     return found.evaluation()
 
 
+class Evaluator:
+    """Evaluates a run that is not live while it is recorded, with memory for a block of it: an observer of `McapRecorder`."""
+
+    def __init__(self, platform: Platform) -> None:
+        """Of a run on `platform` that has not begun."""
+        self._found = _Found(platform)
+        self._begin()
+
+    def add(self, ticks: NDArray[np.float64]) -> None:
+        """Take in the ticks that follow, (n, fields of TOPICS)."""
+        while len(ticks):
+            part, ticks = np.split(ticks, [BLOCK_TICKS - self._held])
+            self._block[self._held : self._held + len(part)] = part
+            self._held += len(part)
+            if self._held == BLOCK_TICKS:
+                self._take()
+
+    def evaluation(self) -> Evaluation:
+        """Of all ticks, when there are no more."""
+        self._take()
+        return self._found.evaluation()
+
+    def _begin(self) -> None:
+        self._block = np.empty((BLOCK_TICKS, _NUMBERS), order="F")
+        self._held = 0
+
+    def _take(self) -> None:
+        self._found.add(Flight.of(Log.of_ticks(self._block[: self._held])))
+        self._begin()
+
+
 class _Found:
-    """What has been found in the log so far."""
+    """What has been found in a run so far."""
 
     def __init__(self, platform: Platform) -> None:
         geometry = platform.geometry()
@@ -56,9 +86,12 @@ class _Found:
             self._metrics.add(block)
             self._check(block)
 
-    def add_live(self, log: Log) -> None:
-        """Take in the whole log of a live run."""
+    def add_log(self, log: Log) -> None:
+        """Take in a whole run."""
         flight = Flight.of(log)
+        if TIMING.name not in log.tables:
+            self.add(flight)
+            return
         for block in ridden(flight, log.statuses).blocks():
             self._metrics.add(block)
         for block in flight.blocks():

@@ -7,7 +7,7 @@ topics in the order of the table; `/felt` is derived from them.
 
 from dataclasses import dataclass
 
-from .states import Cue, Motion, Tick, Timing, VehicleState, WheelSpeeds
+from .states import Tick, Timing
 
 _VECTORS = {"w": "rad_s", "f": "m_s2", "alpha": "rad_s2", "p": "m", "v": "m_s", "a": "m_s2"}
 
@@ -54,36 +54,22 @@ LIVE_TOPICS = (*TOPICS[:-1], TIMING, TOPICS[-1])
 
 def tick_row(tick: Tick) -> tuple[float, ...]:
     """All numbers of a tick in the order of the first four topics of `TOPICS`."""
-    motion = tick.motion
-    return _vehicle_row(tick.vehicle) + _cue_row(tick.cue) + _turn_row(motion) + _stage_row(motion) + _wheel_row(tick.wheels)
-
-
-# Written out, since unpacking one vector after the other takes three times as long where the code is compiled.
-
-
-def _vehicle_row(vehicle: VehicleState) -> tuple[float, ...]:
-    q, w, f = vehicle.q_NB, vehicle.w_NB_B, vehicle.f_B
-    return (vehicle.time, q[0], q[1], q[2], q[3], w[0], w[1], w[2], f[0], f[1], f[2])
-
-
-def _cue_row(cue: Cue) -> tuple[float, ...]:
-    q, w, p, v, a = cue.q_WS, cue.w_WS_W, cue.p_WS_W, cue.v_WS_W, cue.a_WS_W
-    return (cue.time, q[0], q[1], q[2], q[3], w[0], w[1], w[2], p[0], p[1], p[2], v[0], v[1], v[2], a[0], a[1], a[2])
-
-
-def _turn_row(motion: Motion) -> tuple[float, ...]:
-    q, w, alpha = motion.q_WS, motion.w_WS_W, motion.alpha_WS_W
-    return (motion.time, q[0], q[1], q[2], q[3], w[0], w[1], w[2], alpha[0], alpha[1], alpha[2])
-
-
-def _stage_row(motion: Motion) -> tuple[float, ...]:
-    p, v, a, limited = motion.p_WS_W, motion.v_WS_W, motion.a_WS_W, motion.limited
-    return (p[0], p[1], p[2], v[0], v[1], v[2], a[0], a[1], a[2], limited[0], limited[1])
-
-
-def _wheel_row(wheels: WheelSpeeds) -> tuple[float, ...]:
-    u, a = wheels.speed, wheels.acceleration
-    return (wheels.time, u[0], u[1], u[2], a[0], a[1], a[2])
+    # Written out, since unpacking one vector after the other takes three times as long where the code is compiled.
+    vehicle, cue, motion, wheels = tick.vehicle, tick.cue, tick.motion, tick.wheels
+    q_NB, w_NB, f = vehicle.q_NB, vehicle.w_NB_B, vehicle.f_B
+    q_cue, w_cue, p_cue, v_cue, a_cue = cue.q_WS, cue.w_WS_W, cue.p_WS_W, cue.v_WS_W, cue.a_WS_W
+    q, w, alpha, p, v, a = motion.q_WS, motion.w_WS_W, motion.alpha_WS_W, motion.p_WS_W, motion.v_WS_W, motion.a_WS_W
+    u, du, limited = wheels.speed, wheels.acceleration, motion.limited
+    # fmt: off
+    return (
+        vehicle.time, q_NB[0], q_NB[1], q_NB[2], q_NB[3], w_NB[0], w_NB[1], w_NB[2], f[0], f[1], f[2],
+        cue.time, q_cue[0], q_cue[1], q_cue[2], q_cue[3], w_cue[0], w_cue[1], w_cue[2],
+        p_cue[0], p_cue[1], p_cue[2], v_cue[0], v_cue[1], v_cue[2], a_cue[0], a_cue[1], a_cue[2],
+        motion.time, q[0], q[1], q[2], q[3], w[0], w[1], w[2], alpha[0], alpha[1], alpha[2],
+        p[0], p[1], p[2], v[0], v[1], v[2], a[0], a[1], a[2], limited[0], limited[1],
+        wheels.time, u[0], u[1], u[2], du[0], du[1], du[2],
+    )
+    # fmt: on
 
 
 def live_row(tick: Tick, timing: Timing) -> tuple[float, ...]:

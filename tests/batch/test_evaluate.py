@@ -1,4 +1,4 @@
-"""Figures of a finished log, read block by block."""
+"""Figures of a run, while it is recorded and from its log."""
 
 import tracemalloc
 from collections.abc import Callable
@@ -9,9 +9,9 @@ import pytest
 
 from atlas_cueing.batch.run import run_scenario
 from atlas_cueing.evaluation import BLOCK_TICKS, Flight, consistency, limit_use, metrics
-from atlas_cueing.recording import McapRecorder, read_log
+from atlas_cueing.recording import Log, McapRecorder, read_log
 from atlas_cueing.review import review
-from atlas_cueing.scenario import Scenario, evaluate, load_platform
+from atlas_cueing.scenario import Evaluator, Scenario, evaluate, load_platform
 from atlas_cueing.signals import LIVE_TOPICS, TOPICS
 
 from .conftest import Load
@@ -19,8 +19,9 @@ from .conftest import Load
 LONG = 2 * BLOCK_TICKS + 1234  # ticks
 
 
-def test_the_log_alone_gives_the_figures_of_the_run(load: Load, tmp_path: Path) -> None:
-    scenario = load()
+@pytest.mark.parametrize("chunk", [1, 16, 1000])
+def test_the_log_alone_gives_the_figures_of_the_run(load: Load, tmp_path: Path, chunk: int) -> None:
+    scenario = load(f"recording.chunk_ticks={chunk}")
     result = run_scenario(scenario, tmp_path / "log.mcap")
     again = evaluate(result.log, scenario.platform)
     assert again == result.evaluation
@@ -53,6 +54,17 @@ def test_a_log_that_cannot_be_read_is_a_finding(load: Load, tmp_path: Path) -> N
     assert evaluation.metrics == {}
 
 
+def evaluated(ticks: np.ndarray, scenario: Scenario, chunk: int) -> Evaluator:
+    evaluator = Evaluator(scenario.platform)
+    for start in range(0, len(ticks), chunk):
+        evaluator.add(ticks[start : start + chunk])
+    return evaluator
+
+
+def numbers(log: Log) -> np.ndarray:
+    return np.hstack([log.tables[topic.name].values for topic in TOPICS])
+
+
 @pytest.fixture
 def long_log(load: Load, tmp_path: Path) -> Callable[[int], tuple[Scenario, Path]]:
     """Logs of so many ticks: a flight of a second over and over, with times that go on."""
@@ -76,10 +88,11 @@ def long_log(load: Load, tmp_path: Path) -> Callable[[int], tuple[Scenario, Path
     return record
 
 
-@pytest.mark.parametrize("ticks", [500, BLOCK_TICKS, LONG])
-def test_run_and_review_agree_to_the_last_bit(long_log: Callable[[int], tuple[Scenario, Path]], ticks: int) -> None:
+@pytest.mark.parametrize(("ticks", "chunk"), [(500, 7), (BLOCK_TICKS, 512), (LONG, 512), (LONG, 16384), (2 * BLOCK_TICKS, 100)])
+def test_run_and_review_agree_to_the_last_bit(long_log: Callable[[int], tuple[Scenario, Path]], ticks: int, chunk: int) -> None:
     scenario, log = long_log(ticks)
-    found, reviewed = evaluate(log, scenario.platform), review(log)
+    found, reviewed = evaluated(numbers(read_log(log)), scenario, chunk).evaluation(), review(log)
+    assert found == evaluate(log, scenario.platform)
     assert found.metrics["ticks"] == ticks
     shared = {name: found.metrics[name] for name in reviewed.metrics}
     assert shared == reviewed.metrics
@@ -124,8 +137,8 @@ def test_a_live_log_is_judged_where_it_was_running(load: Load, tmp_path: Path) -
     assert review(log).metrics == {name: found.metrics[name] for name in metrics(Flight.of(read_log(log)))}
 
 
-def test_a_log_that_breaks_off_after_some_blocks_has_no_figures(long_log: Callable[[int], tuple[Scenario, Path]]) -> None:
-    scenario, log = long_log(LONG)
+def test_a_log_that_breaks_off_has_no_figures(long_log: Callable[[int], tuple[Scenario, Path]]) -> None:
+    scenario, log = long_log(500)
     log.write_bytes(log.read_bytes()[:-100])
     evaluation = evaluate(log, scenario.platform)
     assert (evaluation.metrics, evaluation.limit_use, len(evaluation.violations)) == ({}, {}, 1)
@@ -136,6 +149,7 @@ def test_a_log_without_ticks(load: Load, tmp_path: Path) -> None:
     McapRecorder(log, head_S=(0.0, 0.0, 0.0), metadata={}, attachments={}).close("ok", "")
     evaluation = evaluate(log, scenario.platform)
     assert set(evaluation.metrics.values()) == set(evaluation.limit_use.values()) == {0.0}
+    assert Evaluator(scenario.platform).evaluation() == evaluation
 
 
 def test_a_log_without_a_topic_is_told(load: Load, tmp_path: Path) -> None:
@@ -151,9 +165,10 @@ def test_memory_grows_by_the_quantiles_only(long_log: Callable[[int], tuple[Scen
     peaks = {}
     for ticks in (3 * BLOCK_TICKS, 6 * BLOCK_TICKS):
         scenario, log = long_log(ticks)
+        flown = numbers(read_log(log))
         tracemalloc.start()
         try:
-            evaluate(log, scenario.platform)
+            evaluated(flown, scenario, 512).evaluation()
             peaks[ticks] = tracemalloc.get_traced_memory()[1]
         finally:
             tracemalloc.stop()

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from scipy.spatial.transform import Rotation
 
-from atlas_cueing.recording.chunk import ROW, ChunkEncoder, Extra
+from atlas_cueing.recording.chunk import ROW, ChunkEncoder, Extra, with_felt
 from atlas_cueing.recording.wire import log_times
 from atlas_cueing.signals import TOPICS, Tick, tick_row
 
@@ -44,10 +44,10 @@ def test_felt_is_what_the_motion_makes_a_head_feel(tmp_path_factory: pytest.Temp
 
 
 def test_extra_messages_stand_where_they_belong() -> None:
-    rows = np.array([tick_row(tick) for tick in tumble(3, 10.0)])
-    encoder = ChunkEncoder(HEAD, {"/wheels": 4})
-    tick_size = len(encoder.encode(rows, log_times(rows[:, 0]), []).data) // 3
-    chunk = encoder.encode(rows, log_times(rows[:, 0]), [Extra(2, 9, 7, b"second"), Extra(0, 9, 5, b"first")])
+    ticks = with_felt(np.array([tick_row(tick) for tick in tumble(3, 10.0)]), HEAD)
+    encoder = ChunkEncoder({"/wheels": 4})
+    tick_size = len(encoder.encode(ticks, log_times(ticks[:, 0]), []).data) // 3
+    chunk = encoder.encode(ticks, log_times(ticks[:, 0]), [Extra(2, 9, 7, b"second"), Extra(0, 9, 5, b"first")])
     assert chunk.data[:5] == b"first"
     assert chunk.data[5 + 2 * tick_size : 11 + 2 * tick_size] == b"second"
     assert chunk.index[4][:, 1].tolist() == [5, 5 + tick_size, 11 + 2 * tick_size]

@@ -69,21 +69,3 @@ def test_a_table_grows() -> None:
     assert table.log_times.tolist() == [5, 6, 7]
     assert not table.values.flags.writeable
     assert not table.log_times.flags.writeable
-
-
-def test_a_table_is_cut_from_the_front() -> None:
-    """In columns, and as it was while the rest goes on growing."""
-    growing, times = Growing(("a", "b")), np.arange(5, dtype=np.uint64)
-    values = np.arange(10.0).reshape(5, 2)
-    growing.add(values, times)
-    first = growing.cut(2)
-    assert len(growing) == 3
-    growing.add(values + 10.0, times + np.uint64(5))
-    rest, nothing = growing.cut(100), growing.table()
-    assert (first.values.tolist(), first.log_times.tolist()) == (values[:2].tolist(), [0, 1])
-    assert rest.values.tolist() == [*values[2:].tolist(), *(values + 10.0).tolist()]
-    assert rest.log_times.tolist() == [2, 3, 4, 5, 6, 7, 8, 9]
-    assert (len(growing), nothing.values.shape) == (0, (0, 2))
-    for table in (first, rest):
-        assert table.values.flags.f_contiguous
-        assert not table.values.flags.writeable

@@ -111,6 +111,6 @@ def test_our_own_logs_are_read_by_their_index(tmp_path: Path, monkeypatch: pytes
 
 
 def test_an_index_of_more_than_the_chunk_holds_is_not_kept() -> None:
-    content = _Content(Path("x.mcap"), None, 1 << 20)
+    content = _Content(Path("x.mcap"), 1 << 20)
     content.add(MessageOffsets(1, np.zeros(1000, dtype=np.uint64)))  # of no chunk at all
     assert content._index == {}
