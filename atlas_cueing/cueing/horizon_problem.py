@@ -52,12 +52,11 @@ class HorizonProblem:
 
         Raises ValueError when the solver does not take the problem.
         """
-        cost, bounded, bound = _matrices(tuple(durations), omega, fade, limits)
+        cost, bounded, bound, self.unlimited = _prepared(tuple(durations), omega, fade, limits)
         self.hessian, self.gradient = np.ascontiguousarray(cost[4:, 4:]), np.ascontiguousarray(cost[4:, :4])
         unknowns = len(durations) - 1
         self.rows, self.offset = np.ascontiguousarray(bounded[unknowns:, 4:]), np.ascontiguousarray(bounded[:, :3])
         self.bound, self._lower, self._bounds = bound, -bound, len(bound)
-        self.unlimited = UnlimitedPlan(durations, cost, bounded, bound)
         self._from_now = np.vstack([bounded[:, :4], self.gradient])  # what both take from (p, v, a, d), in one product
         self._jerk_from_a = [1.0 / duration for duration in durations]
         kinds = np.zeros(len(bound), dtype=np.int32)
@@ -93,13 +92,15 @@ class HorizonProblem:
 
 
 @lru_cache(maxsize=16)  # 3 ms, which a real-time loop that begins anew does not have
-def _matrices(durations: tuple[float, ...], omega: float, fade: float, limits: AxisLimits) -> tuple[Array, Array, Array]:
-    """Matrix of the cost, forms of all that is bounded, and their bounds; to be read only."""
+def _prepared(
+    durations: tuple[float, ...], omega: float, fade: float, limits: AxisLimits
+) -> tuple[Array, Array, Array, UnlimitedPlan]:
+    """Matrix of the cost, forms of all that is bounded, their bounds, and what follows from them; all to be read only."""
     nodes = _nodes(durations)
-    found = _cost(durations, nodes, omega, fade), *_limits(durations, nodes, limits)
-    for array in found:
+    cost, (bounded, bound) = _cost(durations, nodes, omega, fade), _limits(durations, nodes, limits)
+    for array in (cost, bounded, bound):
         array.flags.writeable = False
-    return found
+    return cost, bounded, bound, UnlimitedPlan(durations, cost, bounded, bound)
 
 
 def _nodes(durations: Sequence[float]) -> tuple[Array, Array, Array]:

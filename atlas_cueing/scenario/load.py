@@ -37,19 +37,27 @@ def load_scenario(path: Path, overrides: Sequence[str] = (), *, trust_models: bo
     return resolve(read_toml(path), settings, path, trust_models=trust_models)
 
 
-class Platforms:
-    """Platforms by file and overrides, each read and checked once, however many scenarios have it."""
+class Known:
+    """What the scenarios of one file are made of, by overrides: read and checked once, however many have it."""
 
     def __init__(self) -> None:
         self._files = TomlFiles()
-        self._known: dict[tuple[Path, bytes], tuple[Platform | None, list[Mistake]]] = {}
+        self._platforms: dict[tuple[Path, bytes], tuple[Platform | None, list[Mistake]]] = {}
+        self._tables: dict[bytes, tuple[ScenarioFile | None, list[Mistake]]] = {}
 
-    def get(self, path: Path, overrides: Overrides) -> tuple[Platform | None, list[Mistake]]:
+    def platform(self, path: Path, overrides: Overrides) -> tuple[Platform | None, list[Mistake]]:
         """The platform, or none and what is wrong with it."""
-        key = path, pickle.dumps(overrides)  # tells 1, 1.0 and true apart, which are equal
-        if key not in self._known:
-            self._known[key] = _read_platform(path, overrides, self._files)
-        return self._known[key]
+        key = path, _exactly(overrides)
+        if key not in self._platforms:
+            self._platforms[key] = _read_platform(path, overrides, self._files)
+        return self._platforms[key]
+
+    def table(self, data: dict[str, Any], overrides: Overrides, path: Path) -> tuple[ScenarioFile | None, list[Mistake]]:
+        """The scenario's own table, or none and what is wrong with it; the overrides are in `data` already."""
+        key = _exactly(overrides)
+        if key not in self._tables:
+            self._tables[key] = _read_table(data, overrides, path)
+        return self._tables[key]
 
 
 def resolve(
@@ -58,12 +66,13 @@ def resolve(
     path: Path,
     *,
     trust_models: bool = False,
-    platforms: Platforms | None = None,
+    known: Known | None = None,
 ) -> Scenario:
     """As `load_scenario` for the table that `path` holds, which is changed, and overrides read already.
 
-    platforms: of the scenarios before this one, when there are many.
+    known: of the scenarios before this one of the same file, when there are many.
     """
+    known = known or Known()
     deep = {
         key[1:]: value for key, value in settings.items() if key[0] == "platform" and len(key) > 1 and key[1] not in _CHOICE
     }
@@ -71,10 +80,9 @@ def resolve(
     if ("cueing", "method") in flat:
         _leave_method(data, flat["cueing", "method"])
     mistakes = apply_overrides(data, flat)
-    file, found = _validate(ScenarioFile, data, FileNamer(str(path), flat), path.parent)
-    broken = _broken_rules(data, FileNamer(str(path), flat))
-    mistakes += found + broken[:MOST_SHOWN] + more(len(broken) - MOST_SHOWN, str(path))
-    platform, found = _chosen_platform(data.get("platform"), path.parent, deep, platforms or Platforms())
+    file, found = known.table(data, flat, path)
+    mistakes += found
+    platform, found = _chosen_platform(data.get("platform"), path.parent, deep, known)
     mistakes += found
     if mistakes or file is None or platform is None:
         raise ScenarioError(mistakes)
@@ -88,10 +96,22 @@ def load_platform(name_or_path: str) -> Platform:
         raise ScenarioError(
             [Mistake(name_or_path, "file", "", f"no such file or platform; {nearest(name_or_path, presets())}")]
         )
-    platform, mistakes = Platforms().get(path, {})
+    platform, mistakes = Known().platform(path, {})
     if platform is None:
         raise ScenarioError(mistakes)
     return platform
+
+
+def _exactly(overrides: Overrides) -> bytes:
+    """A key that tells 1, 1.0 and true apart, which are equal."""
+    return pickle.dumps(overrides)
+
+
+def _read_table(data: dict[str, Any], overrides: Overrides, path: Path) -> tuple[ScenarioFile | None, list[Mistake]]:
+    name_file = FileNamer(str(path), overrides)
+    file, mistakes = _validate(ScenarioFile, data, name_file, path.parent)
+    broken = _broken_rules(data, name_file)
+    return file, [*mistakes, *broken[:MOST_SHOWN], *more(len(broken) - MOST_SHOWN, str(path))]
 
 
 def _read_platform(path: Path, overrides: Overrides, files: TomlFiles) -> tuple[Platform | None, list[Mistake]]:
@@ -106,17 +126,15 @@ def _read_platform(path: Path, overrides: Overrides, files: TomlFiles) -> tuple[
     return platform, [replace(m, key=f"platform.{m.key}") if m.file == SET else m for m in mistakes + found]
 
 
-def _chosen_platform(
-    choice: Any, folder: Path, overrides: Overrides, platforms: Platforms
-) -> tuple[Platform | None, list[Mistake]]:
+def _chosen_platform(choice: Any, folder: Path, overrides: Overrides, known: Known) -> tuple[Platform | None, list[Mistake]]:
     """The platform of a `[platform]` table; none, and no mistake either, when the table itself is wrong."""
     if not isinstance(choice, dict):
         return None, []
     preset, file = (choice.get(key) for key in _CHOICE)
     if isinstance(preset, str) and preset in presets() and file is None:
-        return platforms.get(presets()[preset], overrides)
+        return known.platform(presets()[preset], overrides)
     if isinstance(file, str) and is_path(file) and preset is None:
-        return platforms.get(folder / file, overrides)
+        return known.platform(folder / file, overrides)
     return None, []
 
 

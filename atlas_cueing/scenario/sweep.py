@@ -25,7 +25,7 @@ from pydantic import ValidationError
 from ..errors import Mistake, ScenarioError
 from ..vehicles import own_aircraft, own_scripts
 from .cueing import METHODS
-from .load import Platforms, resolve
+from .load import Known, resolve
 from .mistakes import SET, FileNamer, Key, dotted, mistakes_of, more, nearest, shown
 from .overrides import Overrides, apply_overrides, parse_overrides, with_own
 from .platform import presets
@@ -115,12 +115,12 @@ def _resolved(
 ) -> list[Variant]:
     variants, spoilt = [], 0
     found: dict[Mistake, None] = {}  # an ordered set
-    platforms = Platforms()
+    known = Known()
     for point in points:
         swept = {dotted(key): value for key, value in point.items()}
         try:
             settings = {**others, **point}
-            scenario = resolve(with_own(data, settings), settings, path, trust_models=trust_models, platforms=platforms)
+            scenario = resolve(with_own(data, settings), settings, path, trust_models=trust_models, known=known)
             variants.append(Variant(scenario, swept))
             _settle(data, scenario, settings)
         except ScenarioError as error:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from atlas_cueing.errors import ScenarioError
 from atlas_cueing.rotation import Vec3
 from atlas_cueing.scenario import load_platform, load_scenario, presets
-from atlas_cueing.scenario.load import Platforms
+from atlas_cueing.scenario.load import Known
 from atlas_cueing.scenario.overrides import apply_overrides, parse_overrides
 
 from .conftest import Refused
@@ -127,11 +127,11 @@ def test_platform_by_name_or_path(tmp_path: Path) -> None:
 
 
 def test_a_platform_is_the_same_after_another_was_made_of_its_file() -> None:
-    platforms, file = Platforms(), presets()["atlas-2.9m"]
-    higher, mistakes = platforms.get(file, {("rider", "head_m"): [0.0, 0.0, 0.5]})
+    known, file = Known(), presets()["atlas-2.9m"]
+    higher, mistakes = known.platform(file, {("rider", "head_m"): [0.0, 0.0, 0.5]})
     assert higher is not None and higher.head_S == (0.0, 0.0, 0.5)  # noqa: PT018
     assert mistakes == []
-    assert platforms.get(file, {}) == (load_platform("atlas-2.9m"), [])
+    assert known.platform(file, {}) == (load_platform("atlas-2.9m"), [])
 
 
 @pytest.mark.parametrize("bad", ["", "a/b", "..", "x" * 101, "sp ace"])

@@ -163,6 +163,20 @@ def test_a_mistake_of_the_file_is_said_once_and_not_for_every_run(tmp_path: Path
     assert [line.split(": ")[1] for line in lines] == ["nam = 'short'", "name"]
 
 
+def test_runs_that_differ_in_their_platform_have_one_scenario(tmp_path: Path) -> None:
+    """Which is checked once: ten thousand take a second less."""
+    runs = variants(tmp_path, "draws = 3\nplatform.wheel_limits.speed_rad_s = { low = 10.0, high = 20.0 }")
+    assert len({id(run.scenario.file) for run in runs}) == 1
+    assert len({run.scenario.platform.wheel_limits.speed_rad_s for run in runs}) == 3
+    runs = variants(tmp_path, 'cueing.method = ["blend", "force"]\nplatform.wheel_limits.speed_rad_s = [10, 20]')
+    assert [run.scenario.file.cueing.method for run in runs] == ["blend", "blend", "force", "force"]
+
+
+def test_values_that_are_equal_and_not_the_same_are_told_apart(tmp_path: Path) -> None:
+    (line,) = mistakes(tmp_path, "cueing.align_rate_deg_s = [1, 1.0, true]")
+    assert "s.toml: sweep.cueing.align_rate_deg_s = true: allowed: a number" in line
+
+
 def test_a_thousand_wrong_runs_are_cut_short(tmp_path: Path) -> None:
     values = ", ".join(str(-i - 1) for i in range(1000))
     assert len(mistakes(tmp_path, f"duration_s = [{values}]")) == 50
