@@ -15,19 +15,28 @@ def check_clock(run: RecordedRun) -> list[Finding]:
     counts = {topic: len(time) for topic, time in times.items()}
     if len(set(counts.values())) > 1:
         return [_lost(times, counts)]
-    time, step = run.flight.time, run.step
+    time, step = run.flight.time, abs(run.step)
     found = []
     for topic in TOPICS:
         place, off = [f"{topic} time_s"], times[topic] - time
         found += exceeding("time differs from /motion", place, time, off, 0.0, "s", quantity="difference")
     steps = np.diff(time)
     if len(steps):
-        back, gap = steps <= 0.0, steps > GAP * step
+        back = steps <= 0.0
+        gap = ~back & (steps > GAP * step)
         uneven = np.where(back | gap, 0.0, steps - step)
-        found += exceeding("time runs back", ["/motion time_s"], time[1:], np.where(back, steps - step, 0.0), 0.0, "s")
+        found += _back(time, steps) if back.any() else []
         found += exceeding("gap", ["/motion time_s"], time[1:], np.where(gap, steps, 0.0), GAP * step, "s", quantity="step")
         found += exceeding("uneven time", ["/motion time_s"], time[1:], uneven, UNEVEN * step, "s", quantity="|step - median|")
     return found
+
+
+def _back(time: np.ndarray, steps: np.ndarray) -> list[Finding]:
+    """Where time makes its longest step back, or stands still."""
+    worst, count = int(np.argmin(steps)), int(np.count_nonzero(steps <= 0.0))
+    often = f" (the worst of {count} steps)" if count > 1 else ""
+    text = f"step = {steps[worst]:.9g} s, allowed: step > 0{often}"
+    return [Finding("time runs back", "/motion time_s", float(time[worst + 1]), text)]
 
 
 def _lost(times: dict[str, np.ndarray], counts: dict[str, int]) -> Finding:

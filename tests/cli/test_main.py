@@ -17,7 +17,7 @@ from atlas_cueing.errors import InputError, LogError
 
 from .conftest import SCRIPT, Command
 
-START = [sys.executable, "-c", "import sys; from atlas_cueing.cli import main; sys.exit(main())"]
+START = [sys.executable, "-m", "atlas_cueing"]
 
 
 def test_the_installed_command_is_this_one() -> None:

@@ -47,6 +47,23 @@ def test_messages_lost_in_the_middle_and_at_the_end() -> None:
         assert found.time == pytest.approx(when)
 
 
+@pytest.mark.parametrize("rate", [-1.0, 0.0])
+def test_time_that_runs_back_or_stands_still_throughout(rate: float) -> None:
+    run = coning()
+    (found,) = check_clock(with_flight(run, replace(run.flight, time=1.0 + rate * run.flight.time)))
+    assert (found.check, found.place) == ("time runs back", "/motion time_s")
+    assert found.text == f"step = {-0.01 if rate else 0} s, allowed: step > 0 (the worst of 600 steps)"
+
+
+def test_one_step_back() -> None:
+    run = coning()
+    time = run.flight.time.copy()
+    time[[300, 301]] = time[[301, 300]]
+    found = check_clock(with_flight(run, replace(run.flight, time=time)))
+    assert (found[0].check, found[0].time) == ("time runs back", pytest.approx(3.0))
+    assert found[0].text == "step = -0.01 s, allowed: step > 0"
+
+
 @pytest.mark.parametrize("count", [0, 1, 2])
 def test_few_ticks(count: int) -> None:
     assert check_clock(coning(count)) == []
