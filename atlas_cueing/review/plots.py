@@ -20,6 +20,7 @@ ROW = 200  # pixels
 GAP = 54  # pixels between rows: ticks of the one above, title of the one below
 MOST_MARKS = 200  # findings, and spells of a state, marked on the time axis
 DEGREES = 180.0 / np.pi
+NOISE = 1e-9  # of the unit shown: what is smaller is rounding, and would be drawn as large as a signal where nothing else is
 _FORCES = ("x (forward)", "y (right)", "z (down)")
 _RATES = ("x (roll to the right)", "y (pitch up)", "z (yaw to the right)")
 _WHEELS = ("wheel 1", "wheel 2", "wheel 3")
@@ -74,6 +75,7 @@ def overlays(names: Sequence[str], runs: Sequence[RecordedRun]) -> Any:
             np.linalg.norm(flight.motion_p_W, axis=1),
         )
         for row, values in enumerate(columns, 1):
+            values = _quiet(values)
             kept = thinned(values[:, None])
             trace = line(flight.time[kept], values[kept], name, SERIES[k % len(SERIES)], legend=row == 1)
             figure.add_trace(trace, row=row, col=1)
@@ -124,6 +126,7 @@ def _rows(titles: Sequence[str]) -> Any:
 
 def _pair(figure: Any, row: int, time: Array, vehicle: Array, felt: Array) -> None:
     """Vehicle and rider, with the error between them filled."""
+    vehicle, felt = _quiet(vehicle), _quiet(felt)
     kept = thinned(np.column_stack([vehicle, felt]))
     figure.add_trace(line(time[kept], vehicle[kept], "vehicle", VEHICLE, legend=row == 1), row=row, col=1)
     trace = line(time[kept], felt[kept], "rider", FELT, legend=row == 1)
@@ -134,6 +137,7 @@ def _lines(
     figure: Any, row: int, time: Array, values: Array, colours: dict[str, str], limits: Sequence[float] | None = None
 ) -> None:
     """One line a column by name, and the limits dotted: in the line's colour where it is the only one with this limit."""
+    values = _quiet(values)
     for k, (name, colour) in enumerate(colours.items()):
         kept = thinned(values[:, k : k + 1])
         trace = line(time[kept], values[kept, k], name, colour, legend=False)
@@ -143,6 +147,11 @@ def _lines(
         ink = colour if list(limits or ()).count(limit) == 1 else FAULT
         for side in (limit, -limit):
             figure.add_hline(y=side, line_color=ink, line_dash="dot", line_width=1.2, row=row, col=1)
+
+
+def _quiet(values: Array) -> Array:
+    """Without what is only rounding."""
+    return np.where(np.abs(values) < NOISE, 0.0, values)
 
 
 def _flags(figure: Any, row: int, time: Array, flags: Array, names: Sequence[str]) -> None:

@@ -51,6 +51,15 @@ def test_flags_have_a_lane_each() -> None:
     assert sorted(set(np.asarray(stage.y).round(3))) == [0.0, 0.8]
 
 
+def test_rounding_is_not_drawn_as_a_signal() -> None:
+    run = coning()
+    noise = 1e-15 * np.random.default_rng(1).normal(size=run.flight.felt_f.shape)
+    still = replace(run.flight, felt_f=noise, wheel_speed=noise, motion_p_W=noise + np.array([0.0, 0.0, 2e-9]))
+    drawn = over_time(judge(with_flight(run, still))).data
+    flat = [trace.name for trace in drawn if not np.any(np.asarray(trace.y))]
+    assert [flat.count(name) for name in ("rider", "wheel 1", "wheel 2", "x", "y", "z")] == [3, 1, 1, 1, 1, 0]
+
+
 def test_spells_of_other_states_are_shaded() -> None:
     run = with_states(coning(), (0.0, "running", ""), (1.0, "holding", "late"), (2.5, "running", ""), (5.0, "parking", ""))
     plot = over_time(judge(run))
