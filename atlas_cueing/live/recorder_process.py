@@ -9,7 +9,7 @@ from .forked import Ended, Forked, Left
 from .ring_recorder import Recorded, RingRecorder
 
 POLL_S = 0.01  # s between two looks at the ring
-FINISH_S = 10.0  # s that the last chunks and their way to the disk may take (assumed)
+FINISH_S = 60.0  # s that the last chunks and their way to a slow, busy disk may take (assumed); nobody rides any more
 
 
 class RecorderProcess:

@@ -23,7 +23,7 @@ preset = "atlas-2.9m"
 [sweep]
 cueing.method = ["blend", "attitude", "force", "classical"]
 """
-LIMITS = Limits(time=60.0)
+LIMITS = Limits(time=600.0)
 
 # A worker whose runs by `attitude` do something else first.
 _SABOTEUR = """
