@@ -47,8 +47,8 @@ class UnlimitedPlan:
         system = np.block([[cost[4:, 4:], equation[4:, None]], [equation[None, 4:], np.zeros((1, 1))]])
         x = np.linalg.solve(system, -np.vstack([cost[4:, :4], equation[:4]]))[:m]  # (m, 4)
         self._used = (bounded[:-1, :4] + bounded[:-1, 4:] @ x) / bound[:-1, None]  # share of each bound, by state
-        worst: list[float] = np.max(np.abs(self._used), axis=0).tolist()
-        self._worst = (worst[0], worst[1], worst[2], worst[3])
+        self._first = _state(self._used[m])  # of the first block's jerk, which comes behind the m unknowns
+        self._worst = _state(np.max(np.abs(np.delete(self._used, m, axis=0)), axis=0))
         ends = np.vstack([np.array([0.0, 0.0, 1.0, 0.0]), x, np.zeros(4)])  # acceleration at the end of each block
         rows = (np.diff(ends, axis=0) / np.asarray(durations)[:, None]).tolist()
         self._jerk: list[State] = [(p, v, a, d) for p, v, a, d in rows]
@@ -58,8 +58,19 @@ class UnlimitedPlan:
         return Plan(self._jerk, state)
 
     def is_free(self, state: State) -> bool:
-        """Whether it keeps every limit; most states are settled by a bound on all of them at once."""
-        worst = self._worst
+        """Whether it keeps every limit.
+
+        Nearly all states are settled by the first jerk, which is the nearest to its limit since it has to catch up with a
+        demand that jumps, and by a bound on all the others at once.
+        """
+        first, worst = self._first, self._worst
+        if abs(first[0] * state[0] + first[1] * state[1] + first[2] * state[2] + first[3] * state[3]) > 1.0:
+            return False
         if worst[0] * abs(state[0]) + worst[1] * abs(state[1]) + worst[2] * abs(state[2]) + worst[3] * abs(state[3]) <= 1.0:
             return True
         return bool(np.max(np.abs(self._used @ np.array(state))) <= 1.0)
+
+
+def _state(values: Array) -> State:
+    p, v, a, d = values.tolist()
+    return (p, v, a, d)
