@@ -45,7 +45,13 @@ KeyFile: TypeAlias = Annotated[
 ]
 Foxglove: TypeAlias = Annotated[
     int | None,
-    typer.Option("--foxglove", help="Serve Foxglove at this port of the loopback (extra: foxglove).", metavar="PORT"),
+    typer.Option(
+        "--foxglove",
+        help="Serve Foxglove at this port of the loopback (extra: foxglove).",
+        metavar="PORT",
+        min=0,
+        max=65535,
+    ),
 ]
 Priority: TypeAlias = Annotated[
     bool, typer.Option("--priority", help="Ask for real-time priority, locked memory and a core; tell what is refused.")

@@ -59,6 +59,14 @@ def test_a_rate_out_of_range(command: Command, rate: str) -> None:
     assert not list(Path().glob("*.mcap*"))
 
 
+@pytest.mark.parametrize("option", ["--port", "--foxglove"])
+@pytest.mark.parametrize("port", ["-1", "65536", "x"])
+def test_a_port_that_is_none(command: Command, option: str, port: str) -> None:
+    ended = command("live", "s.toml", option, port)
+    assert (ended.status, ended.out) == (2, "")
+    assert f"Invalid value for '{option}'" in ended.err
+
+
 def test_waiting_without_a_view_has_nobody_to_wait_for(command: Command) -> None:
     ended = command("live", "s.toml", "--wait")
     assert (ended.status, ended.out) == (2, "")
