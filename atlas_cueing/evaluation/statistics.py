@@ -29,7 +29,7 @@ class Peaks:
     def add(self, v: Array) -> None:
         """Take in the rows that follow, of which there may be none."""
         if len(v):
-            self.components = np.maximum(self.components, np.maximum(np.max(v, axis=0), -np.min(v, axis=0)))
+            self.components = np.maximum(self.components, np.maximum(np.max(v, axis=0), 0.0 - np.min(v, axis=0)))
 
     @property
     def largest(self) -> float:

@@ -106,3 +106,10 @@ def test_length_of_rows() -> None:
     v = np.array([[3.0, 4.0, 12.0], [0.0, 0.0, -2.0]])
     assert length(v).tolist() == length(np.asfortranarray(v)).tolist() == [13.0, 2.0]
     assert distance(v + 1.0, np.ones((2, 3))).tolist() == [13.0, 2.0]
+
+
+def test_the_peak_of_rest_has_no_sign() -> None:
+    """Or it would be shown as -0 %."""
+    peaks = Peaks()
+    peaks.add(np.zeros((3, 3)))
+    assert "-" not in repr(peaks.largest)
