@@ -76,11 +76,7 @@ class McapRecorder:
         self._latest_log_time = started_ns or EPOCH_NS
         self._failure = ""
         try:
-            self._file = os.open(self._part, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o666)
-            _hold(self._file)
-            if os.fstat(self._file).st_size:
-                os.ftruncate(self._file, 0)
-            self._container = Container(self._write)
+            self._open()
             self._start(attachments, skip_topics)
         except OSError as error:
             raise self._fail(error) from error
@@ -132,8 +128,16 @@ class McapRecorder:
         if file >= 0:
             os.close(file)
 
+    def _open(self) -> None:
+        """An empty file that nobody else writes."""
+        self._file = os.open(self._part, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o666)
+        _hold(self._file)
+        if os.fstat(self._file).st_size:
+            os.ftruncate(self._file, 0)
+
     def _start(self, attachments: Mapping[str, bytes], skip: Collection[str]) -> None:
         """Write what comes before the first tick."""
+        self._container = Container(self._write)
         names = [name for name in (*(topic.name for topic in self._topics), STATUS, TF) if name not in skip]
         self._channels = {name: self._container.add_channel(name, *schema_of(name)) for name in names}
         for name, data in attachments.items():
