@@ -75,7 +75,7 @@ class Tally:
 
     @property
     def peak_mb(self) -> float:
-        """Largest resident memory of this process so far, MB; the kernel's other figure, ru_maxrss, begins with the parent's."""
+        """Largest resident memory of this process so far, MB; ru_maxrss would begin with that of the parent."""
         status = Path("/proc/self/status")
         return int(status.read_text().split("VmHWM:")[1].split()[0]) / 1024.0 if status.exists() else nan
 
