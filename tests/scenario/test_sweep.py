@@ -164,7 +164,7 @@ def test_a_mistake_of_the_file_is_said_once_and_not_for_every_run(tmp_path: Path
 
 
 def test_runs_that_differ_in_their_platform_have_one_scenario(tmp_path: Path) -> None:
-    """Which is checked once: ten thousand take a second less."""
+    """Which is checked once, and not for every run."""
     runs = variants(tmp_path, "draws = 3\nplatform.wheel_limits.speed_rad_s = { low = 10.0, high = 20.0 }")
     assert len({id(run.scenario.file) for run in runs}) == 1
     assert len({run.scenario.platform.wheel_limits.speed_rad_s for run in runs}) == 3
