@@ -1,5 +1,7 @@
 """The architecture in four lines."""
 
+# mypyc: runs every tick
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -12,6 +12,8 @@ Conventions, once for the whole project:
 Plain floats are 10 to 50 times faster here than arrays of three; scipy's Rotation is the oracle in the tests.
 """
 
+# mypyc: runs every tick
+
 from math import asin, atan2, cos, pi, sin, sqrt
 from typing import Final, TypeAlias
 

@@ -10,6 +10,7 @@ import os
 import sys
 import traceback
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -55,11 +56,21 @@ app.command(epilog=PLATFORM_EPILOG)(platform)
 
 def _show_version(asked: bool) -> None:
     if asked:
-        from .. import __version__, rotation
+        from .. import __version__
 
-        compiled = not rotation.__file__.endswith(".py")
-        typer.echo(f"atlas-cueing {__version__}{', compiled' if compiled else ''}")
+        typer.echo(f"atlas-cueing {__version__}, {_build()}")
         raise typer.Exit
+
+
+def _build() -> str:
+    """Tell whether this is compiled, and why it is not."""
+    from .. import rotation
+
+    if not rotation.__file__.endswith(".py"):
+        return "compiled"
+    told = Path(rotation.__file__).with_name("not_compiled.txt")  # by tools/build_backend.py
+    reason = told.read_text("utf-8").strip() if told.exists() else "it runs from its source tree"
+    return f"plain Python ({reason})"
 
 
 @app.callback()

@@ -1,5 +1,7 @@
 """Method `attitude`: the sphere takes the vehicle's attitude one to one, for ever."""
 
+# mypyc: runs every tick
+
 from ..rotation import IDENTITY, Quat, Vec3, conjugate, exp, log, multiply, normalise
 from ..signals import VehicleState
 from .cabin import Cabin, cabin_rate, upright

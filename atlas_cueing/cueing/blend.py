@@ -1,5 +1,7 @@
 """Method `blend`: the vehicle's rates at once, the direction of its specific force before long."""
 
+# mypyc: runs every tick
+
 from ..rotation import Quat, Vec3, flip, subtract
 from ..signals import VehicleState
 from .cabin import Cabin, cabin_rate

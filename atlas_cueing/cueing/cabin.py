@@ -1,5 +1,7 @@
 """The cabin: how it stands in W, and how it turns with the vehicle and slowly by itself."""
 
+# mypyc: runs every tick
+
 from ..rotation import (
     ZERO,
     Quat,

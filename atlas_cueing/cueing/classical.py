@@ -10,6 +10,8 @@ The three channels of L. D. Reid & M. A. Nahon, "Flight simulation motion-base d
 Angles of the first two add up and are limited as a hexapod's are. Defaults of the TU Delft set; see ClassicalParameters.
 """
 
+# mypyc: runs every tick
+
 from math import asin, cos, inf, sin, tan, tanh
 from typing import Final
 

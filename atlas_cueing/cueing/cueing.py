@@ -1,5 +1,7 @@
 """A rotation method and the stage, side by side."""
 
+# mypyc: runs every tick
+
 from typing import Protocol, TypeAlias
 
 from ..rotation import Vec3

@@ -1,5 +1,7 @@
 """The critically damped second-order system: the one filter of cueing."""
 
+# mypyc: runs every tick
+
 from math import exp
 
 from ..rotation import ZERO, Vec3

@@ -1,5 +1,7 @@
 """Method `force`: the cabin's gravity follows the direction of the vehicle's specific force."""
 
+# mypyc: runs every tick
+
 from ..rotation import Quat, Vec3, flip
 from ..signals import VehicleState
 from .cabin import Cabin, cabin_rate

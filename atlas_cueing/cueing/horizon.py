@@ -6,6 +6,8 @@ filter where the limits allow and does the next best where they do not (`horizon
 there is none, to its end, where the stage stands.
 """
 
+# mypyc: runs every tick
+
 from itertools import pairwise
 
 from .horizon_law import Plan

@@ -10,6 +10,8 @@ least x hessian x / 2 + x gradient s has a multiplier y with
 and nothing has to be searched for; so it is for nine plans of ten in ordinary flights.
 """
 
+# mypyc: runs every tick
+
 from collections.abc import Sequence
 
 import numpy as np

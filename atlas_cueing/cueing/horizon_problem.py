@@ -17,6 +17,8 @@ replacing a plan never gives up a limit.
 Where the optimum without limits keeps them all, it is the plan (`horizon_law`); otherwise daqp searches for it.
 """
 
+# mypyc: runs every tick
+
 from collections.abc import Sequence
 from functools import lru_cache
 from typing import TypeAlias

@@ -1,5 +1,7 @@
 """Knowing when to keep still: how much of what the stage could do would be of use."""
 
+# mypyc: runs every tick
+
 from math import exp
 
 

@@ -1,5 +1,7 @@
 """Jumps of the attitude: a reset, reposition or trim in mid-run."""
 
+# mypyc: runs every tick
+
 from ..rotation import add, conjugate, exp, geodesic, multiply, scale
 from ..signals import VehicleState
 

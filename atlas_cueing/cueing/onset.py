@@ -8,6 +8,8 @@ brakes with the natural frequency omega and comes back to the centre with omega_
 A tanh(d / A), so that no demand whatever, by the L1 norms of the filter, can drive p, v or a out of their bounds.
 """
 
+# mypyc: runs every tick
+
 from math import e, exp, pi, tanh
 
 from .damping import CriticalDamping

@@ -5,6 +5,8 @@ sphere's own turning gives alpha x r + w x (w x r) of it; the rest is asked of t
 planner can (`horizon`, `onset`).
 """
 
+# mypyc: runs every tick
+
 from typing import TypeAlias
 
 from ..rotation import ZERO, Quat, Vec3, add, cross, flip, rotate, scale, subtract

@@ -4,6 +4,8 @@ A rider at rest feels R_SW (0, 0, g), upwards in W, whose direction in the cabin
 the cabin with u' = -w x u, so u is turned towards a force f by the rate (f x u) / |f x u|.
 """
 
+# mypyc: runs every tick
+
 from math import atan2, pi
 
 from ..rotation import ZERO, Quat, Vec3, add, cross, dot, flip, multiply, norm, rotate, scale, shortest_arc, up_in_body

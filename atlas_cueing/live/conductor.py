@@ -1,5 +1,7 @@
 """One tick of a live run, whatever happens: what is seen, what follows from it, what is flown, and what goes to the drives."""
 
+# mypyc: runs every tick
+
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 

@@ -4,6 +4,8 @@ Each course is smooth by itself, from the motion it is begun with, and gives a C
 after it as after any cue, so a course need not know the limits exactly. All in W.
 """
 
+# mypyc: runs every tick
+
 from math import inf, pi, radians, sqrt
 from typing import Protocol
 

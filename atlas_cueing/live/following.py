@@ -1,5 +1,7 @@
 """Whether one sample of a vehicle follows from the one before, or the vehicle was reset, repositioned or crashed."""
 
+# mypyc: runs every tick
+
 from math import degrees, radians
 
 from ..cueing import attitude_jump

@@ -16,6 +16,8 @@ Then its stop: speed, and on the stage travel, hold from there to standstill, in
 successor: one tick along its own stop. Each wheel and each axis of W stops on its own.
 """
 
+# mypyc: runs every tick
+
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import copysign, inf, sqrt, ulp

@@ -1,5 +1,7 @@
 """The vehicle between two samples."""
 
+# mypyc: runs every tick
+
 from ..rotation import Quat, Vec3, add, conjugate, exp, integrate_body, log, multiply, scale, subtract
 from ..signals import VehicleState
 

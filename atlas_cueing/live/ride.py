@@ -1,5 +1,7 @@
 """One live run's platform: the state it is in, the course it is on, and the pipeline that carries it out."""
 
+# mypyc: runs every tick
+
 from collections.abc import Callable
 from dataclasses import replace
 from math import hypot, isfinite

@@ -1,5 +1,7 @@
 """Where the vehicle comes from in real time."""
 
+# mypyc: runs every tick
+
 from dataclasses import dataclass
 from typing import Protocol
 

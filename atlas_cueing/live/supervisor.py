@@ -1,5 +1,7 @@
 """From what is seen of the input to events: when it may be trusted, and when no longer."""
 
+# mypyc: runs every tick
+
 from .source import Intake
 from .states import Event, State
 

@@ -1,5 +1,7 @@
 """A vehicle that owns its time, in step with the clock: JSBSim, test signals, or a recording."""
 
+# mypyc: runs every tick
+
 from dataclasses import replace
 
 from ..rotation import ZERO, continuous

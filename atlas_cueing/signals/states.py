@@ -8,6 +8,8 @@ These are made anew every tick, so each has a plain `__init__`: a frozen datacla
 the code is compiled. `Final` keeps them as they are (for the type checker, and at run time where compiled).
 """
 
+# mypyc: runs every tick
+
 from dataclasses import dataclass
 from typing import Final
 

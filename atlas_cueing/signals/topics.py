@@ -5,6 +5,8 @@ tools draw one line a field and a message has a fixed layout on the wire. `tick_
 topics in the order of the table; `/felt` is derived from them.
 """
 
+# mypyc: runs every tick
+
 from dataclasses import dataclass
 
 from .states import Tick, Timing

@@ -14,6 +14,8 @@ angle may grow for ever; the velocity interface passes the speed limit on its wa
 clipped first. `intermediate_positions`, which would call a cloud service, is never set.
 """
 
+# mypyc: runs every tick
+
 from dataclasses import dataclass
 from math import isfinite, sqrt
 from typing import Final

@@ -1,5 +1,7 @@
 """The whole of smoothing: sphere and stage side by side."""
 
+# mypyc: runs every tick
+
 from math import inf, sqrt
 from typing import Final
 

@@ -11,6 +11,8 @@ of which keeps its own speed, acceleration and jerk. The turn each wheel really 
 orientation.
 """
 
+# mypyc: runs every tick
+
 from math import inf, pi
 from typing import Final
 

@@ -9,6 +9,8 @@ Between ticks a step stays within A dt^2 / 8 of the line between its ends, so th
 stop itself is checked in continuous time.
 """
 
+# mypyc: runs every tick
+
 from math import copysign, inf, isfinite
 from typing import Final
 

@@ -12,6 +12,8 @@ has a certified successor. Phases as in L. Berscheid & T. Kroeger, "Jerk-limited
 Arbitrary Target States", RSS 2021, velocity interface with target zero.
 """
 
+# mypyc: runs every tick
+
 from dataclasses import dataclass
 from math import sqrt
 

@@ -1,5 +1,7 @@
 """What a vehicle that people ride in never does; beyond it the model has failed."""
 
+# mypyc: runs every tick
+
 from dataclasses import dataclass
 
 from ..rotation import norm

@@ -1,5 +1,7 @@
 """Timed inputs, played on JSBSim's properties."""
 
+# mypyc: runs every tick
+
 from collections.abc import Iterable
 from dataclasses import dataclass
 from math import isfinite

@@ -1,5 +1,7 @@
 """JSBSim as a vehicle."""
 
+# mypyc: runs every tick
+
 from math import floor, inf
 
 from ..errors import InputError, VehicleError

@@ -1,5 +1,7 @@
 """Vehicle states out of JSBSim's properties: feet become metres here."""
 
+# mypyc: runs every tick
+
 from math import atan2, cos, pi, sin
 from typing import Final
 from warnings import catch_warnings, simplefilter

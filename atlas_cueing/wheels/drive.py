@@ -1,5 +1,7 @@
 """The last link of the chain: wheel speeds of an allowed motion."""
 
+# mypyc: runs every tick
+
 from ..rotation import Mat3, Vec3, apply, dot
 from ..signals import Motion, WheelSpeeds
 from .geometry import Geometry

@@ -1,0 +1,74 @@
+"""Compiles the modules that run every tick by mypyc (https://mypyc.readthedocs.io).
+
+A module that is to be compiled says so itself, in a line that reads exactly as MARK.
+"""
+
+import os
+import shlex
+import sys
+import sysconfig
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from shutil import which
+from typing import Any
+
+from setuptools import Extension
+from setuptools.command.build_ext import build_ext
+
+PACKAGE = Path("atlas_cueing")
+OBSTACLE = PACKAGE / "not_compiled.txt"  # in a wheel that is not: why
+MARK = "# mypyc: runs every tick"
+
+
+def compiled_modules() -> list[str]:
+    """Give the files of the modules that are to be compiled."""
+    every = sorted(PACKAGE.rglob("*.py"))
+    return [str(path) for path in every if MARK in path.read_text("utf-8").splitlines()]
+
+
+def obstacle() -> str:
+    """Tell in a few words why there is no use in trying to compile; "" when there may be."""
+    if sys.implementation.name != "cpython":
+        return "mypyc compiles for CPython only"
+    compiler, *_ = [*shlex.split(os.environ.get("CC") or sysconfig.get_config_var("CC") or ""), "cc"]
+    if which(compiler) is None:
+        return f"no C compiler ({compiler} not found)"
+    if not any(Path(folder, "Python.h").exists() for folder in _header_folders()):
+        return "no Python headers (Python.h; Debian has them in python3-dev)"
+    return ""
+
+
+def extensions() -> list[Extension]:
+    """Give the compiled modules as extensions of C: mypyc translates them now."""
+    from mypyc.build import mypycify
+
+    # Types are checked elsewhere, with everything installed; here little is.
+    options = ["--config-file=", "--ignore-missing-imports", "--follow-imports=silent"]
+    # A file for each module, so that the processors share the work.
+    arguments = [*options, *compiled_modules()]
+    found = mypycify(arguments, opt_level="2", debug_level="0", multi_file=True)
+    for extension in found:
+        kept = [flag for flag in extension.extra_compile_args if flag != "-Werror"]
+        extension.extra_compile_args = [*kept, "-ffp-contract=off"]  # fused operations: other bits
+    return found
+
+
+class ParallelBuild(build_ext):  # type: ignore[misc] # without types
+    """Runs the C compiler once for each processor; setuptools does so for extensions only."""
+
+    def build_extensions(self) -> None:
+        """Compile and link all of them."""
+        self.parallel = os.cpu_count()
+        one_by_one = self.compiler.compile
+
+        def compile_all(sources: list[str], **how: Any) -> list[str]:
+            with ThreadPoolExecutor(self.parallel) as pool:
+                found = pool.map(lambda source: one_by_one([source], **how), sources)
+                return [file for files in found for file in files]
+
+        self.compiler.compile = compile_all
+        super().build_extensions()
+
+
+def _header_folders() -> list[str]:
+    return [sysconfig.get_path("include"), sysconfig.get_path("platinclude")]
