@@ -2,8 +2,10 @@
 
 import json
 import re
+import tomllib
 from math import pi
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -124,3 +126,15 @@ def test_two_wheels_are_not_enough() -> None:
     data["wheel"].pop()
     with pytest.raises(ValidationError, match="three"):
         Platform.model_validate(data)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_preset_shows_every_key_there_is(name: str) -> None:
+    """Whoever copies one finds what may be changed, the place of the rider's head with it."""
+
+    def keys(table: dict[str, Any]) -> set[str]:
+        inner = {f"{key}.{deeper}" for key, value in table.items() if isinstance(value, dict) for deeper in keys(value)}
+        return {*table, *inner}
+
+    written = tomllib.loads(presets()[name].read_text())
+    assert keys(written) == keys(load_platform(name).model_dump())
