@@ -3,6 +3,7 @@
     AtlasError
     |-- InputError              a file, option or value is wrong; nothing was written (exit status 2)
     |   |-- ScenarioError       every mistake of a scenario or platform file at once
+    |   |-- MissingExtraError   a package of an extra is not installed
     |   |-- SlipConditionError  a geometry whose wheels cannot turn the sphere about every axis
     |   `-- OutputError         the log cannot be written where it was asked for
     |-- VehicleError            the vehicle model failed in mid-run; what came before is good (exit status 1)
@@ -14,7 +15,11 @@
 Messages carry evidence: what, which value, which bounds (written `lower <= value <= upper`), when and where.
 """
 
+import sys
 from dataclasses import dataclass
+from shlex import quote
+
+PIP = f"{quote(sys.executable)} -m pip"  # of the environment that this program runs in
 
 
 class AtlasError(Exception):
@@ -45,6 +50,13 @@ class ScenarioError(InputError):
     def __init__(self, mistakes: list[Mistake]) -> None:
         self.mistakes = tuple(mistakes)
         super().__init__("\n".join(str(mistake) for mistake in mistakes))
+
+
+class MissingExtraError(InputError):
+    """A package that comes with an extra is not installed; the text has the command that installs it where this one runs."""
+
+    def __init__(self, what: str, package: str, extra: str) -> None:
+        super().__init__(f"{what} needs {package}; install it with: {PIP} install 'atlas_cueing[{extra}]'")
 
 
 class SlipConditionError(InputError):

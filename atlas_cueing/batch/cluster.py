@@ -19,7 +19,7 @@ from itertools import islice
 from time import sleep
 from typing import Any
 
-from ..errors import InputError
+from ..errors import InputError, MissingExtraError
 from .order import Order
 from .record import Record
 from .workers import ATTEMPTS, Stop, Worker, lost
@@ -100,7 +100,7 @@ def _client(address: str, jobs: int) -> Iterator[Any]:
         import dask
         from distributed import Client, LocalCluster
     except ImportError as error:
-        raise InputError("--cluster needs dask.distributed: pip install 'atlas_cueing[cluster]'") from error
+        raise MissingExtraError("--cluster", "dask.distributed", "cluster") from error
     if address == LOCAL:
         with (
             dask.config.set({"distributed.scheduler.allowed-failures": ATTEMPTS - 1}),

@@ -7,7 +7,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from ..errors import InputError, OutputError
+from ..errors import PIP, InputError, MissingExtraError, OutputError
 from .child import in_child
 
 UPLOAD_LIMIT = 3600.0  # s of wall time for what one run leaves (assumed); a GB takes an hour at 2.3 Mbit/s
@@ -178,11 +178,11 @@ class RemoteResults:
         try:
             from fsspec.core import url_to_fs
         except ImportError as error:
-            raise InputError(f"-o {self.where()}: a URL needs fsspec: pip install 'atlas_cueing[cluster]'") from error
+            raise MissingExtraError(f"-o {self.where()}: a URL", "fsspec", "cluster") from error
         try:
             fs, root = url_to_fs(self._url)
         except ImportError as error:
-            raise InputError(f"-o {self.where()}: its driver is missing: {error}") from error
+            raise InputError(f"-o {self.where()}: its driver is missing: {error} ({PIP} install ...)") from error
         except Exception as error:  # a kind of URL that nobody knows, a host that does not answer
             raise InputError(f"-o {self.where()}: {error}") from error
         return fs, root

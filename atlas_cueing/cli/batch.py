@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ..errors import InputError, LogError
+from ..errors import InputError, LogError, MissingExtraError
 from .batch_progress import batch_progress, spoken
 from .text import TRUST_MODELS
 
@@ -25,8 +25,8 @@ Examples:
 
   atlas-cueing batch scenarios/jsbsim_collection.toml -o collection --jobs 2 --sort force_rms_m_s2
 
-The same command again flies only what is missing. On many machines, or to try it here, with pip install
-'atlas_cueing[cluster]': a scheduler, workers on every machine, then the batch, to a folder that all of them see:
+The same command again flies only what is missing. On many machines, or to try it here, with the extra cluster: a
+scheduler, workers on every machine, then the batch, to a folder that all of them see:
 
   export DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES=1
 
@@ -40,7 +40,7 @@ Or to a URL that fsspec has a driver for, which every worker uploads its finishe
 
   atlas-cueing batch sweep.toml -o file:///shared/sweep
 
-  atlas-cueing batch sweep.toml -o s3://bucket/sweep --cluster tcp://127.0.0.1:8786    (pip install s3fs)
+  atlas-cueing batch sweep.toml -o s3://bucket/sweep --cluster tcp://127.0.0.1:8786    (with s3fs installed)
 
 Whoever reaches a scheduler or worker can run any program there: use addresses of a private network only, in place of each
 127.0.0.1 above; without --dashboard-address both answer the whole world over HTTP.
@@ -173,7 +173,7 @@ def _check_plotly() -> None:
     from importlib.util import find_spec
 
     if find_spec("plotly") is None:
-        raise InputError("--pages needs plotly: pip install 'atlas_cueing[report]'")
+        raise MissingExtraError("--pages", "plotly", "report")
 
 
 def _check_metric(name: str) -> None:

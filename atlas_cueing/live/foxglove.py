@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..errors import InputError
+from ..errors import MissingExtraError
 from ..recording import Ring, RingReader
 from ..recording.chunk import ELAPSED, ChunkEncoder, with_felt
 from ..recording.live import END, STATUS, TICK, status
@@ -46,10 +46,10 @@ class FoxgloveProcess:
         ring: written by this process only. port: of 127.0.0.1; 0 takes a free one. head_S: the rider's head, m, frame S, for
         /felt. started_ns: as McapRecorder has it.
 
-        Raises InputError when foxglove-sdk is not installed or the port cannot be had.
+        Raises MissingExtraError when foxglove-sdk is not installed, InputError when the port cannot be had.
         """
         if find_spec("foxglove") is None:
-            raise InputError("Foxglove needs the package foxglove-sdk: pip install 'atlas_cueing[foxglove]'")
+            raise MissingExtraError("--foxglove", "foxglove-sdk", "foxglove")
         with listen("127.0.0.1", port) as listener:
             self.port: int = listener.getsockname()[1]
             feed = Feed(ring, head_S, started_ns)

@@ -5,7 +5,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..errors import InputError, OutputError
+from ..errors import MissingExtraError, OutputError
 from ..recording.whole_file import write_whole
 from .comparison import Comparison
 from .figures import Figure, telling
@@ -31,7 +31,7 @@ li.finding { color: #c00000; } details { margin: 0.5em 0; }
 def write_page(found: Review, file: Path) -> None:
     """Write the review with plots of everything into `file`.
 
-    Raises InputError when plotly is not installed and OutputError when the file cannot be written; an old one is kept then.
+    Raises MissingExtraError without plotly and OutputError when the file cannot be written; an old one is kept then.
     """
     plots = _plots()
     from .limits_plot import limit_bars
@@ -76,7 +76,7 @@ def _plots() -> Any:
     except ModuleNotFoundError as error:
         if (error.name or "").partition(".")[0] != "plotly":
             raise
-        raise InputError("HTML pages need plotly; install it with: pip install 'atlas_cueing[report]'") from error
+        raise MissingExtraError("an HTML page", "plotly", "report") from error
     return plots
 
 

@@ -8,7 +8,7 @@ from importlib.util import find_spec
 from io import StringIO
 from typing import TYPE_CHECKING
 
-from ..errors import InputError
+from ..errors import InputError, MissingExtraError
 from .gate import HOST, gated, silence
 
 if TYPE_CHECKING:
@@ -16,13 +16,13 @@ if TYPE_CHECKING:
 
 
 def check_viser(extra: str) -> None:
-    """Raise InputError, naming the extra to install, when viser is missing."""
+    """Raise MissingExtraError when viser, which comes with `extra`, is not installed."""
     try:
         missing = find_spec("viser") is None
     except ValueError:  # what find_spec says of a module that was switched off
         missing = True
     if missing:
-        raise InputError(f"3D views need viser; install it with: pip install 'atlas_cueing[{extra}]'")
+        raise MissingExtraError("a 3D view", "viser", extra)
 
 
 def open_server(port: int, title: str | None = None) -> "ViserServer":

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from atlas_cueing.errors import MissingExtraError
 from atlas_cueing.recording import read_log
 
 from .conftest import SCRIPT, Command
@@ -127,7 +128,7 @@ def test_pages_for_the_browser(sweep: Command, tmp_path: Path, monkeypatch: pyte
     assert pages[0].read_text() == "mine"
     monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
     ended = sweep(*command)
-    assert (ended.status, ended.err) == (2, "error: --pages needs plotly: pip install 'atlas_cueing[report]'\n")
+    assert (ended.status, ended.err) == (2, f"error: {MissingExtraError('--pages', 'plotly', 'report')}\n")
 
 
 def test_a_dry_run_writes_nothing(sweep: Command, tmp_path: Path) -> None:

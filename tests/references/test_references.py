@@ -4,7 +4,7 @@ import pytest
 
 from .figures import PINNED, TOLERANCE, differences, flown, names, pinned
 
-REMEDY = "if that is meant, run: .venv/bin/python tools/update_references"
+REMEDY = "if that is meant, run: tools/update_references"
 
 
 @pytest.mark.parametrize("name", names())

@@ -2,8 +2,10 @@
 
 import json
 import re
+import tomllib
 from math import pi
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -43,7 +45,7 @@ def test_published_diameters() -> None:
 def test_every_number_is_published_or_marked_as_assumed(name: str) -> None:
     published = r"radius_m.*# published|contact|drive"
     lines = [line for line in presets()[name].read_text().splitlines() if re.match(r"\w+ = [\d\[]", line)]
-    assert len(lines) == 1 + 9 + 7
+    assert len(lines) == 1 + 9 + 7 + 1  # sphere, wheels, limits, rider
     for line in lines:
         assert re.match(published, line) or re.search(r"# assumed: .{10}", line), line
 
@@ -124,3 +126,15 @@ def test_two_wheels_are_not_enough() -> None:
     data["wheel"].pop()
     with pytest.raises(ValidationError, match="three"):
         Platform.model_validate(data)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_preset_shows_every_key_there_is(name: str) -> None:
+    """Whoever copies one finds what may be changed, the place of the rider's head with it."""
+
+    def keys(table: dict[str, Any]) -> set[str]:
+        inner = {f"{key}.{deeper}" for key, value in table.items() if isinstance(value, dict) for deeper in keys(value)}
+        return {*table, *inner}
+
+    written = tomllib.loads(presets()[name].read_text())
+    assert keys(written) == keys(load_platform(name).model_dump())

@@ -11,18 +11,18 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csc_array, csc_matrix, hstack, kron, triu, vstack
 
-from ...errors import InputError
+from ...errors import InputError, MissingExtraError
 from .spline import Array
 
 _SOLVED = ("Solved", "AlmostSolved")  # the latter to 5e-5 of the cost and 1e-4 of the bounds
 
 
 def clarabel() -> Any:
-    """The solver's module. Raises InputError when it is not installed."""
+    """The solver's module. Raises MissingExtraError when it is not installed."""
     try:
         import clarabel as module
     except ModuleNotFoundError as error:
-        raise InputError("method 'preview' needs clarabel; install it with: pip install 'atlas_cueing[preview]'") from error
+        raise MissingExtraError("method 'preview'", "clarabel", "preview") from error
     return module
 
 
