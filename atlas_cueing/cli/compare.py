@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..printable import printable
 from .options import AsJson
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ def compare(
     """
     from ..review import compare as compared
     from .page import check_page
-    from .text import one_json
+    from .text import one_json, say
 
     check_page(html, force=force)
     comparison = compared(logs, different_flights=different_flights)
@@ -50,7 +51,7 @@ def compare(
     if not comparison.clean:
         for name, each in zip(comparison.names, comparison.reviews, strict=True):
             for finding in each.findings:
-                typer.echo(f"{name}: {finding}", err=True)
+                say(f"{name}: {finding}")
         raise typer.Exit(1)
 
 
@@ -58,7 +59,8 @@ def comparison_table(comparison: "Comparison") -> str:
     """Every metric in a row, every log in a column; angles in degrees, shares in percent."""
     from ..review.figures import Figure
 
-    heads = [name if len(name) <= _LONGEST_NAME else f"{name[: _LONGEST_NAME - 2]}.." for name in comparison.names]
+    names = map(printable, comparison.names)
+    heads = [name if len(name) <= _LONGEST_NAME else f"{name[: _LONGEST_NAME - 2]}.." for name in names]
     rows = [("", heads), ("verdict", [each.verdict for each in comparison.reviews])]
     for name in comparison.metric_names():
         figure = Figure.of(name)

@@ -5,9 +5,8 @@ from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import typer
-
 from ..errors import InputError
+from .text import say
 
 if TYPE_CHECKING:
     from ..live.loop import Drives
@@ -29,13 +28,13 @@ def followers(session: "LiveSession", scenario: "Scenario", view_port: int | Non
             press, allowed = session.buttons.press, allowed_buttons()
             viewer = ViewerProcess(session.ring, scenario.platform, press, allowed, port=view_port, title=scenario.name)
             stack.enter_context(viewer)
-            typer.echo(f"view: {viewer.url}", err=True)
+            say(f"view: {viewer.url}")
         if foxglove_port is not None:
             from ..live.foxglove import FoxgloveProcess
 
             server = FoxgloveProcess(session.ring, foxglove_port, scenario.platform.head_S, session.started_ns)
             stack.callback(server.close)
-            typer.echo(f"foxglove: {server.url}", err=True)
+            say(f"foxglove: {server.url}")
         yield
 
 
@@ -53,7 +52,7 @@ def drives(setpoints: str | None, key_file: Path | None) -> Iterator[Sequence["D
     with closing(SetPointSender(host, port, key=_key(key_file) if key_file else b"")) as sender:
         yield (sender,)
     if sender.unsent:
-        typer.echo(f"{sender.unsent} set points could not be sent to {setpoints}", err=True)
+        say(f"{sender.unsent} set points could not be sent to {setpoints}")
 
 
 def _address(text: str) -> tuple[str, int]:

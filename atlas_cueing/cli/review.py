@@ -78,7 +78,9 @@ def review(
 
 
 def _tell(url: str) -> None:
-    typer.echo(f"view: {url} (end with Ctrl-C)", err=True)
+    from .text import say
+
+    say(f"view: {url} (end with Ctrl-C)")
 
 
 def review_summary(found: "Review") -> str:

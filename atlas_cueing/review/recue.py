@@ -35,7 +35,7 @@ def recue(path: Path, settings: Sequence[str], output: Path) -> Scenario:
         try:
             scenario = _cued_by(folder / SCENARIO, [_from_here(text) for text in settings])
         except ScenarioError as error:
-            raise InputError("\n".join(as_inside(ScenarioError([mistake]), folder) for mistake in error.mistakes)) from error
+            raise InputError(*(as_inside(ScenarioError([mistake]), folder) for mistake in error.mistakes)) from error
         attachments = scenario.attachments()
     vehicle, pipeline = prepare(scenario, recorded)
     recorder = _recorder(output, scenario, log, attachments)
