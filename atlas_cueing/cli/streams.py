@@ -68,7 +68,8 @@ class SafeStream(io.TextIOBase):
         if not isinstance(text, str):
             raise TypeError("a text stream takes no bytes")
         encoded = self._shown(text).encode(self.encoding, self.errors)
-        self._try(lambda raw: raw.write(encoded.decode(self.encoding)))
+        if encoded:  # click tries nothing, and even that can fail
+            self._try(lambda raw: raw.write(encoded.decode(self.encoding)))
         return len(text)
 
     def flush(self) -> None:
