@@ -25,6 +25,12 @@ def html_text(text: str) -> str:
     return escape(printable(text))
 
 
+def is_name(text: str) -> bool:
+    """Whether `text` may name a file: visible characters, and bytes that are not UTF-8."""
+    visible = "".join(character for character in text if ord(character) not in _BYTES)
+    return text != "" and visible.isprintable()
+
+
 def utf8(text: str) -> str:
     """Return `text` with a question mark for every character that UTF-8 has no bytes for."""
     return text.encode(errors="replace").decode()

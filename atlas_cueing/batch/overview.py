@@ -7,6 +7,7 @@ from typing import Any
 from urllib.parse import quote
 
 from ..printable import html_text
+from ..recording.whole_file import PAGE_BEGINS
 from .heading import Heading, length_of
 from .look import SCRIPT, STYLE
 from .picture import parameters, picture
@@ -30,7 +31,7 @@ def overview(table: Sequence[Row], settings: Sequence[str], metrics: Sequence[st
     parts += [_picture(table, parameters(table, settings), metrics[0])]
     parts += [_flown(flown, settings, metrics, files), _failed(failed, settings, files)]
     return (
-        f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{html_text(title)}</title><style>{STYLE}</style>'
+        f'{PAGE_BEGINS}<html lang="en"><meta charset="utf-8"><title>{html_text(title)}</title><style>{STYLE}</style>'
         f"{''.join(parts)}<script>{SCRIPT}</script></html>\n"
     )
 

@@ -94,14 +94,14 @@ def batch(
     The folder gets RUN.mcap and RUN.json for each run, summary.csv and index.html. Exit status 0: all flown, every limit kept.
     1: a run has a finding, or the batch was stopped. 2: bad input, nothing was written.
     """
-    from ..batch import Interrupt, Limits, fly_batch, missing, plan, results_at
+    from ..batch import Interrupt, Limits, check_results, fly_batch, missing, plan, results_at
 
     _check_metric(sort)
     if pages:
         _check_plotly()
     runs = plan(paths, settings or (), trust_models=trust_models, checking=_tell)
     results = results_at(output)
-    results.check()
+    check_results(results)
     todo = missing(runs, results, retry=retry)
     say(_plan_text(runs, todo))
     if dry_run:
@@ -142,12 +142,13 @@ def _plan_text(runs: "Sequence[PlannedRun]", todo: "Sequence[PlannedRun]") -> st
 def _write(outcomes: "Sequence[Outcome]", results: "Results", sort: str) -> list[Mapping[str, Any]]:
     """Table and overview, also of a batch that was stopped; gives the table."""
     from ..batch import csv_of, ordered, overview, rows
+    from ..batch.results import INDEX, SUMMARY
 
     table = ordered(rows(outcomes), sort)
-    results.write("summary.csv", csv_of(table).encode())
+    results.write(SUMMARY, csv_of(table).encode(errors="replace"))
     metrics = [sort, *(name for name in SHOWN_METRICS if name != sort)]
     page = overview(table, _settings(outcomes), metrics, results.title, results.names())
-    results.write("index.html", page.encode())
+    results.write(INDEX, page.encode(errors="replace"))
     return table
 
 

@@ -31,17 +31,18 @@ def compare(
         bool, typer.Option("--different-flights", help="Compare although the vehicle did not fly the same in all.")
     ] = False,
     as_json: AsJson = False,
-    force: Annotated[bool, typer.Option("--force", help="Replace an existing HTML file.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Replace the page of an earlier comparison.")] = False,
 ) -> None:
     """Put several logs of one flight side by side.
 
     Exit status 0: all are clean. 1: one has a finding or cannot be read. 2: bad usage, or logs of different flights.
     """
     from ..review import compare as compared
-    from .page import check_page
+    from .page import check_pages
     from .text import one_json, say
 
-    check_page(html, force=force)
+    if html:
+        (html,) = check_pages([html], inputs=logs, force=force)
     comparison = compared(logs, different_flights=different_flights)
     if html:
         from ..review.page import write_comparison

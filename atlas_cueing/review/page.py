@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, OutputError
 from ..printable import html_text
-from ..recording.whole_file import write_whole
+from ..recording.whole_file import write_page as write_file
 from .comparison import Comparison
 from .figures import Figure, telling
 from .punctuality import is_live
@@ -152,7 +152,7 @@ def _write(file: Path, title: str, sections: "Sequence[tuple[str, str | Plot]]")
         pieces.append(f"<h2>{html_text(heading)}</h2>" if heading else "")
         pieces.append(content if isinstance(content, str) else _html(content))
     try:
-        write_whole(file, "".join([*pieces, "</body></html>\n"]))
+        write_file(file, "".join([*pieces, "</body></html>\n"]))
     except OSError as error:
         raise OutputError(f"page {file}: {error.strerror}") from error
 

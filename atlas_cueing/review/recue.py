@@ -48,7 +48,7 @@ def recue(path: Path, settings: Sequence[str], output: Path) -> Scenario:
         recorder.close(log.metadata.get("result", ""), log.metadata.get("reason", ""))
     except OutputError:
         recorder.abandon()
-        output.with_name(f"{output.name}.part").unlink(missing_ok=True)  # half of it is of no use: the flight is still there
+        recorder.part.unlink(missing_ok=True)  # half of it is of no use: the flight is still there
         raise
     return scenario
 

@@ -34,11 +34,11 @@ def test_a_run_for_programs(command: Command) -> None:
 
 
 def test_an_existing_log_is_kept_without_force(command: Command, tmp_path: Path) -> None:
-    (tmp_path / "short.mcap").write_text("precious")
+    (tmp_path / "short.mcap").write_bytes(b"\x89MCAP precious")
     ended = command("run", "s.toml")
     assert (ended.status, ended.out) == (2, "")
     assert "--force" in ended.err
-    assert (tmp_path / "short.mcap").read_text() == "precious"
+    assert (tmp_path / "short.mcap").read_bytes() == b"\x89MCAP precious"
     assert command("run", "s.toml", "--force").status == 0
     assert read_log(tmp_path / "short.mcap").metadata["result"] == "ok"
 
