@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager
+from ipaddress import AddressValueError, IPv4Address
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from ..scenario import Scenario
 
 _HIGHEST_PORT = 65535
+_EXAMPLE = "127.0.0.1:5600"  # of a receiver on this machine
 _LARGEST_KEY = 4096  # bytes of its file; keys have 32 at most
 
 
@@ -56,10 +58,23 @@ def drives(setpoints: str | None, key_file: Path | None) -> Iterator[Sequence["D
 
 
 def _address(text: str) -> tuple[str, int]:
-    host, _, port = text.rpartition(":")
-    if not host or not port.isdigit() or not 1 <= int(port) <= _HIGHEST_PORT:
-        raise InputError(f"--setpoints {text}, allowed: HOST:PORT with a port of 1 to {_HIGHEST_PORT}")
+    host, colon, port = text.rpartition(":")
+    wrong = "" if colon and host else "the port or the host is missing"
+    if not wrong and not (port.isascii() and port.isdigit() and 1 <= int(port) <= _HIGHEST_PORT):
+        wrong = f"port {port!r}, allowed: 1 to {_HIGHEST_PORT}"
+    if not wrong and not _is_numeric(host):
+        wrong = f"host {host!r}, allowed: a numeric IPv4 address, for names are not looked up"
+    if wrong:
+        raise InputError(f"--setpoints {text}: {wrong}; HOST:PORT is written as in {_EXAMPLE}")
     return host, int(port)
+
+
+def _is_numeric(host: str) -> bool:
+    try:
+        IPv4Address(host)
+    except AddressValueError:
+        return False
+    return True
 
 
 def _key(file: Path) -> bytes:

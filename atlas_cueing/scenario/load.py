@@ -34,6 +34,10 @@ def load_scenario(path: Path, overrides: Sequence[str] = (), *, trust_models: bo
 
     trust_models: whether a script beside the scenario may be flown; it can be read and cued anew in any case.
     """
+    if os.path.isdir(path):
+        batch = f"to fly all scenarios in it: atlas-cueing batch {path} -o RESULTS"
+        allowed = f"is a folder, not a regular file; {batch}"
+        raise ScenarioError([Mistake(str(path), "file", "", allowed)])
     settings = parse_overrides(overrides)
     return resolve(read_toml(path), settings, path, trust_models=trust_models)
 

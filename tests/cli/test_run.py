@@ -68,7 +68,7 @@ def test_every_mistake_is_a_line_of_its_own(command: Command, tmp_path: Path) ->
     ("arguments", "message"),
     [
         (["missing.toml"], "missing.toml: file: cannot be read"),
-        (["."], "not a regular file"),
+        (["."], "to fly all scenarios in it: atlas-cueing batch . -o RESULTS"),
         (["s.toml", "-o", "no/such/folder.mcap"], "there is no folder"),
         (["s.toml", "-o", ".", "--force"], "no regular file"),
         (["s.toml", "-o", "x" * 300], "File name too long"),
