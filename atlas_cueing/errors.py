@@ -6,6 +6,7 @@
     |   |-- MissingExtraError   a package of an extra is not installed
     |   |-- SlipConditionError  a geometry whose wheels cannot turn the sphere about every axis
     |   `-- OutputError         the log cannot be written where it was asked for
+    |-- PrintError              standard output takes nothing more; what was recorded is kept (exit status 1)
     |-- VehicleError            the vehicle model failed in mid-run; what came before is good (exit status 1)
     |-- PlanningError           the trajectory generator refused a state; the certified stop takes over
     |-- LogError                a log is damaged or not one of ours (exit status 1)
@@ -21,9 +22,19 @@ from shlex import quote
 
 PIP = f"{quote(sys.executable)} -m pip"  # of the environment that this program runs in
 
+from .printable import printable
+
 
 class AtlasError(Exception):
-    """Root of all errors of this project; its text is ready to be shown to the user."""
+    """Root of all errors of this project. Each argument is a line for the user."""
+
+    def __str__(self) -> str:
+        return "\n".join(self.lines)
+
+    @property
+    def lines(self) -> tuple[str, ...]:
+        """The lines of the message; a line break inside one of them comes from a name."""
+        return tuple(map(str, self.args))
 
 
 class InputError(AtlasError):
@@ -41,7 +52,7 @@ class Mistake:
 
     def __str__(self) -> str:
         found = f" = {self.value}" if self.value else ""
-        return f"{self.file}: {self.key}{found}: {self.allowed}"
+        return f"{printable(self.file)}: {self.key}{found}: {self.allowed}"
 
 
 class ScenarioError(InputError):
@@ -49,7 +60,7 @@ class ScenarioError(InputError):
 
     def __init__(self, mistakes: list[Mistake]) -> None:
         self.mistakes = tuple(mistakes)
-        super().__init__("\n".join(str(mistake) for mistake in mistakes))
+        super().__init__(*map(str, mistakes))
 
 
 class MissingExtraError(InputError):
@@ -74,6 +85,10 @@ class SlipConditionError(InputError):
 
 class OutputError(InputError):
     """The log cannot be written where it was asked for."""
+
+
+class PrintError(AtlasError):
+    """Standard output takes nothing more: its disk is full, or it is closed."""
 
 
 class VehicleError(AtlasError):

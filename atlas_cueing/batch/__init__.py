@@ -9,16 +9,17 @@ from .batch import Fly, Outcome, fly_batch, missing
 from .cluster import on_cluster
 from .interrupt import Interrupt
 from .order import Limits
-from .output import check_output
+from .output import PAGE, check_output
 from .overview import overview
 from .plan import PlannedRun, plan
 from .record import Record
-from .results import Results, results_at
+from .results import Results, check_results, results_at
 from .run import RunResult, run_scenario
 from .table import csv_of, metric_names, ordered, rows
 from .workers import fly_here
 
 __all__ = [
+    "PAGE",
     "Fly",
     "Interrupt",
     "Limits",
@@ -28,6 +29,7 @@ __all__ = [
     "Results",
     "RunResult",
     "check_output",
+    "check_results",
     "csv_of",
     "fly_batch",
     "fly_here",

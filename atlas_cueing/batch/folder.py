@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TextIO
 
 from ..errors import OutputError
+from ..recording.whole_file import write_whole
 from .child import linger
 
 LOCK = ".batch.lock"
@@ -53,13 +54,19 @@ class FolderResults:
     def opened(self) -> Iterator[None]:
         """Make the folder and hold it. Raises OutputError while another batch of this machine holds it."""
         self.check()
-        self._folder.mkdir(exist_ok=True)
-        with (self._folder / LOCK).open("w") as lock:
+        with self._lock_file() as lock:
             try:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)  # the system lets go of it however the driver ends
             except OSError as error:
                 raise OutputError(f"folder {self._folder}: another batch is at work in it") from error
             yield
+
+    def _lock_file(self) -> TextIO:
+        try:
+            self._folder.mkdir(exist_ok=True)
+            return (self._folder / LOCK).open("w")
+        except OSError as error:
+            raise OutputError(f"folder {self._folder}: {error.strerror}") from error
 
     @contextmanager
     def claimed(self, run: str) -> Iterator[None]:
@@ -89,10 +96,11 @@ class FolderResults:
         return found
 
     def write(self, name: str, content: bytes) -> None:
-        """Write a file, complete or not at all."""
-        part = self._folder / f"{name}.part"
-        part.write_bytes(content)
-        os.replace(part, self._folder / name)
+        """Write a file, complete or not at all. Raises OutputError."""
+        try:
+            write_whole(self._folder / name, content)
+        except OSError as error:
+            raise OutputError(f"{self._folder / name}: {error.strerror}") from error
 
     def desk(self, scratch: Path) -> Path:  # noqa: ARG002 - it is not needed here
         """The folder itself: who writes there renames what is complete."""

@@ -2,11 +2,12 @@
 
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
-from html import escape
 from math import isfinite
 from typing import Any
 from urllib.parse import quote
 
+from ..printable import html_text
+from ..recording.whole_file import PAGE_BEGINS
 from .heading import Heading, length_of
 from .look import SCRIPT, STYLE
 from .picture import parameters, picture
@@ -26,11 +27,11 @@ def overview(table: Sequence[Row], settings: Sequence[str], metrics: Sequence[st
     one, its review (`<run id>.html`). Figures are in units for people; a head's tooltip is the name of its metric or key.
     """
     flown, failed = ([row for row in table if (row["result"] == "ok") == ok] for ok in (True, False))
-    parts = [f"<h1>{escape(title)}</h1>", _totals(table), '<p>All figures: <a href="summary.csv">summary.csv</a></p>']
+    parts = [f"<h1>{html_text(title)}</h1>", _totals(table), '<p>All figures: <a href="summary.csv">summary.csv</a></p>']
     parts += [_picture(table, parameters(table, settings), metrics[0])]
     parts += [_flown(flown, settings, metrics, files), _failed(failed, settings, files)]
     return (
-        f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(title)}</title><style>{STYLE}</style>'
+        f'{PAGE_BEGINS}<html lang="en"><meta charset="utf-8"><title>{html_text(title)}</title><style>{STYLE}</style>'
         f"{''.join(parts)}<script>{SCRIPT}</script></html>\n"
     )
 
@@ -70,7 +71,7 @@ def _flown(rows: Sequence[Row], settings: Sequence[str], metrics: Sequence[str],
     scales = {name: _range(rows, name) for name in metrics}
     body = "\n".join(_line(row, heads, scales, files) for row in rows)
     note = f"{same}Sorted by {heads[metrics[0]].words}; a click on a head sorts by that column. The least of a figure is bold."
-    return f"<h2>Flown to the end</h2><p>{escape(note)}</p>{_table(heads, body, sorted_by=metrics[0])}"
+    return f"<h2>Flown to the end</h2><p>{html_text(note)}</p>{_table(heads, body, sorted_by=metrics[0])}"
 
 
 def _failed(rows: Sequence[Row], settings: Sequence[str], files: Collection[str]) -> str:
@@ -83,7 +84,7 @@ def _failed(rows: Sequence[Row], settings: Sequence[str], files: Collection[str]
     body = "\n".join(_line(row, heads, {}, files) for row in ordered)
     counts = Counter(str(row["result"]).replace("_", " ") for row in ordered)
     told = ", ".join(f"{count} {result}" for result, count in counts.items())
-    return f"<h2>Not flown to the end: {escape(told)}</h2><p>{escape(same)}</p>{_table(heads, body)}"
+    return f"<h2>Not flown to the end: {html_text(told)}</h2><p>{html_text(same)}</p>{_table(heads, body)}"
 
 
 def _columns(rows: Sequence[Row], settings: Sequence[str]) -> tuple[list[str], str]:
@@ -114,8 +115,8 @@ def _number(value: Any) -> bool:
 
 def _table(heads: _Heads, body: str, sorted_by: str = "") -> str:
     cells = "".join(
-        f'<th class="{_kind(name)}" title="{escape(name)}"{" aria-sort=ascending" if name == sorted_by else ""}>'
-        f"<span>{escape(head.words)}</span>{f'<small>{escape(head.unit)}</small>' if head.unit else ''}</th>"
+        f'<th class="{_kind(name)}" title="{html_text(name)}"{" aria-sort=ascending" if name == sorted_by else ""}>'
+        f"<span>{html_text(head.words)}</span>{f'<small>{html_text(head.unit)}</small>' if head.unit else ''}</th>"
         for name, head in heads.items()
     )
     dense = ' class="dense"' if len(heads) > _MANY else ""
@@ -131,10 +132,9 @@ def _line(row: Row, heads: _Heads, scales: Mapping[str, tuple[float, float]], fi
 
 def _run(row: Row) -> str:
     """Scenario and method; of the id only its end, for the rest of it says the same."""
-    name, end = f"{row['scenario']} · {row['method']}", str(row["run"]).rpartition("-")[2]
-    return (
-        f'<td class="run" data-v="{escape(name)}" title="{escape(row["run"])}">{escape(name)}<small>{escape(end)}</small></td>'
-    )
+    name = html_text(f"{row['scenario']} · {row['method']}")
+    run, end = html_text(row["run"]), html_text(str(row["run"]).rpartition("-")[2])
+    return f'<td class="run" data-v="{name}" title="{run}">{name}<small>{end}</small></td>'
 
 
 def _cell(row: Row, name: str, head: Heading, scales: Mapping[str, tuple[float, float]]) -> str:
@@ -145,8 +145,8 @@ def _cell(row: Row, name: str, head: Heading, scales: Mapping[str, tuple[float, 
         least, most = scales[name]
         style = f' style="--part:{100.0 * value / most:.0f}%"' if 0.0 <= value <= most and most > 0.0 else ""
         kind += " least" if value == least < most else ""
-    shown = escape(head.text(value)).replace("_", "_<wbr>")
-    return f'<td class="{kind}" data-v="{escape(str(value)) if known else ""}"{style}>{shown}</td>'
+    shown = html_text(head.text(value)).replace("_", "_<wbr>")
+    return f'<td class="{kind}" data-v="{html_text(str(value)) if known else ""}"{style}>{shown}</td>'
 
 
 def _links(row: Row, files: Collection[str]) -> str:

@@ -1,11 +1,11 @@
 """A metric against the two parameters of a sweep, as SVG."""
 
 from collections.abc import Sequence
-from html import escape
 from math import ceil, inf, isnan
 from statistics import fmean
 from typing import Any
 
+from ..printable import html_text
 from .heading import Heading
 from .table import Row
 
@@ -83,7 +83,7 @@ def _known(row: Row, x: str, y: str, metric: str) -> bool:
 
 def _mark(across: _Axis, up: _Axis, at: tuple[float, float], value: str, share: float) -> str:
     """A dot, or a cell with its value in it where that has room."""
-    colour, tip = _colour(share), f"<title>{escape(value)}</title>"
+    colour, tip = _colour(share), f"<title>{html_text(value)}</title>"
     x, y = _LEFT + at[0], _TOP + up.length - at[1]
     if not (across.discrete and up.discrete):
         return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="5" fill="{colour}">{tip}</circle>'
@@ -100,6 +100,6 @@ def _colour(share: float) -> str:
 
 
 def _text(x: float, y: float, text: str, anchor: str = "middle", tip: str = "", fill: str = "currentColor") -> str:
-    told = f"<title>{escape(tip)}</title>" if tip else ""
+    told = f"<title>{html_text(tip)}</title>" if tip else ""
     place = f'x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" font-size="13" fill="{fill}"'
-    return f"<text {place}>{told}{escape(text)}</text>"
+    return f"<text {place}>{told}{html_text(text)}</text>"

@@ -58,13 +58,13 @@ def plan(
         try:
             variants = load_variants(file, overrides, trust_models=trust_models)
         except ScenarioError as error:
-            wrong |= dict.fromkeys(str(error).splitlines())
+            wrong |= dict.fromkeys(error.lines)
             continue
         if len(variants) >= MANY:
             checking(file, len(variants))
         _add(runs, wrong, file, variants)
     if wrong:
-        raise InputError("\n".join(wrong))
+        raise InputError(*wrong)
     return list(runs.values())
 
 
@@ -74,7 +74,7 @@ def _files(paths: Iterable[Path], wrong: dict[str, None]) -> Iterator[Path]:
         try:
             yield from scenario_files(path) if os.path.isdir(path) else [path]  # Path.is_dir raises when a name is too long
         except ScenarioError as error:
-            wrong |= dict.fromkeys(str(error).splitlines())
+            wrong |= dict.fromkeys(error.lines)
 
 
 def _add(runs: dict[str, PlannedRun], wrong: dict[str, None], file: Path, variants: Sequence[Variant]) -> None:

@@ -1,13 +1,13 @@
 """What came of one run of a batch, and the file that keeps it."""
 
 import json
-import os
 from collections.abc import Callable, Collection
 from dataclasses import asdict, dataclass, field
 from math import isfinite
 from pathlib import Path
 from typing import Any, Self
 
+from ..recording.whole_file import write_whole
 from .results import Results
 
 # The run itself ended so: the same again would end the same. Anything else (a full disk, a lost worker) is flown again.
@@ -67,9 +67,7 @@ class Record:
 
 def keep(record: Record, desk: Path) -> None:
     """Write the record beside its log, complete or not at all."""
-    part = desk / f"{record.id}.json.part"
-    part.write_text(json.dumps(record.to_json(), indent=1, allow_nan=False))
-    os.replace(part, desk / f"{record.id}.json")
+    write_whole(desk / f"{record.id}.json", json.dumps(record.to_json(), indent=1, allow_nan=False))
 
 
 def kept(runs: Collection[str], results: Results) -> dict[str, Record]:

@@ -5,8 +5,12 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Protocol
 
+from ..errors import OutputError
 from .folder import FolderResults
+from .output import PAGE, TABLE
 from .remote import RemoteResults
+
+SUMMARY, INDEX = "summary.csv", "index.html"  # the table and the page of all runs
 
 
 class Results(Protocol):
@@ -69,6 +73,22 @@ class Results(Protocol):
     def fetch(self, name: str, scratch: Path) -> Path:
         """A file of this machine with the content of `name`; in `scratch` unless there is one already."""
         ...
+
+
+def check_results(results: Results) -> None:
+    """Refuse a place whose table or page would be replaced, and is not of an earlier batch.
+
+    Raises OutputError for that, and InputError when results can never go there. Makes nothing.
+    """
+    results.check()
+    there = results.names()
+    for name, kind in ((SUMMARY, TABLE), (INDEX, PAGE)):
+        content = results.read([name]).get(name, b"") if results.has(name) else None
+        if name in there and (content is None or not kind.may_replace(content)):
+            raise OutputError(
+                f"{results.where(name)}: is no {kind.name} of a batch, and would be replaced; "
+                "choose another folder, or give it another name"
+            )
 
 
 def results_at(place: str) -> Results:

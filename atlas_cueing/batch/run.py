@@ -98,8 +98,8 @@ def run_scenario(scenario: Scenario, log: Path, *, progress: Progress | None = N
         _record(vehicle, pipeline, recorder, flown, progress)
     except OutputError as error:
         recorder.abandon()
-        part = log.with_name(f"{log.name}.part")
-        return RunResult("recording_failed", str(error), part, flown.ticks, flown.time, perf_counter() - begun, Evaluation())
+        part, wall = recorder.part, perf_counter() - begun
+        return RunResult("recording_failed", str(error), part, flown.ticks, flown.time, wall, Evaluation())
     wall = perf_counter() - begun
     return RunResult(flown.result, flown.reason, log, flown.ticks, flown.time, wall, evaluator.evaluation())
 

@@ -4,18 +4,20 @@ Exit status: 0 done and clean; 1 the run or the platform has a finding, and what
 usage, and nothing was written. Results go to stdout, everything else to stderr.
 """
 
+import errno
 import gc
 import logging
 import os
 import sys
 import traceback
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from ..errors import AtlasError, InputError
+from ..printable import printable
 from .batch import EPILOG as BATCH_EPILOG
 from .batch import batch
 from .compare import EPILOG as COMPARE_EPILOG
@@ -32,6 +34,9 @@ from .review import EPILOG as REVIEW_EPILOG
 from .review import review
 from .run import EPILOG as RUN_EPILOG
 from .run import run
+from .streams import safe_streams
+
+_OF_THE_SYSTEM = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EMFILE, errno.ENFILE)  # as in a full /tmp
 
 app = typer.Typer(
     help="Washout-free motion cueing: a flight becomes wheel velocity profiles of a sphere that turns without bound.",
@@ -91,15 +96,23 @@ def _options(
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command with `arguments` (the process's own by default); gives the exit status."""
     _spare()
-    texts = list(sys.argv[1:] if arguments is None else arguments)
+    with safe_streams():
+        return _status(list(sys.argv[1:] if arguments is None else arguments))
+
+
+def _status(texts: list[str]) -> int:
     try:
         app(args=texts, prog_name="atlas-cueing")
     except SystemExit as end:
         return end.code if isinstance(end.code, int) else 1
     except InputError as error:
-        return _fail(str(error), 2)
+        return _fail(error.lines, 2)
     except AtlasError as error:
-        return _fail(str(error), 1)
+        return _fail(error.lines, 1)
+    except OSError as error:
+        if error.errno not in _OF_THE_SYSTEM:
+            return _unexpected(error, "--debug" in texts)
+        return _fail([f"{error.filename}: {error.strerror}" if error.filename else str(error.strerror)], 1)
     except Exception as error:  # noqa: BLE001 - a user must never see a traceback that was not asked for
         return _unexpected(error, "--debug" in texts)
     return 0
@@ -115,10 +128,10 @@ def _unexpected(error: Exception, debug: bool) -> int:
     if debug:
         traceback.print_exception(error)
     hint = "" if debug else "; with 'atlas-cueing --debug ...' it shows where"
-    return _fail(f"unexpected {type(error).__name__}: {error}. This is a bug, please report it{hint}", 1)
+    return _fail([f"unexpected {type(error).__name__}: {error}. This is a bug, please report it{hint}"], 1)
 
 
-def _fail(message: str, status: int) -> int:
-    for line in message.splitlines():
-        typer.echo(f"error: {line}", err=True)
+def _fail(lines: Iterable[str], status: int) -> int:
+    for line in lines:
+        typer.echo(f"error: {printable(line)}", err=True)
     return status

@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ..errors import InputError, LogError, MissingExtraError
+from ..printable import printable
 from .batch_progress import batch_progress, spoken
-from .text import TRUST_MODELS
+from .text import TRUST_MODELS, say
 
 if TYPE_CHECKING:
     from ..batch import Fly, Outcome, PlannedRun, Results
@@ -93,16 +94,16 @@ def batch(
     The folder gets RUN.mcap and RUN.json for each run, summary.csv and index.html. Exit status 0: all flown, every limit kept.
     1: a run has a finding, or the batch was stopped. 2: bad input, nothing was written.
     """
-    from ..batch import Interrupt, Limits, fly_batch, missing, plan, results_at
+    from ..batch import Interrupt, Limits, check_results, fly_batch, missing, plan, results_at
 
     _check_metric(sort)
     if pages:
         _check_plotly()
     runs = plan(paths, settings or (), trust_models=trust_models, checking=_tell)
     results = results_at(output)
-    results.check()
+    check_results(results)
     todo = missing(runs, results, retry=retry)
-    typer.echo(_plan_text(runs, todo), err=True)
+    say(_plan_text(runs, todo))
     if dry_run:
         return
     with _flyer(cluster, jobs or len(os.sched_getaffinity(0))) as fly, Interrupt() as stop, batch_progress(todo) as tell:
@@ -117,7 +118,7 @@ def batch(
 
 def _tell(file: Path, runs: int) -> None:
     """To check thousands takes many seconds, in which nothing else is said."""
-    typer.echo(f"checking {runs} runs of {file}", err=True)
+    say(f"checking {runs} runs of {file}")
 
 
 @contextmanager
@@ -141,12 +142,13 @@ def _plan_text(runs: "Sequence[PlannedRun]", todo: "Sequence[PlannedRun]") -> st
 def _write(outcomes: "Sequence[Outcome]", results: "Results", sort: str) -> list[Mapping[str, Any]]:
     """Table and overview, also of a batch that was stopped; gives the table."""
     from ..batch import csv_of, ordered, overview, rows
+    from ..batch.results import INDEX, SUMMARY
 
     table = ordered(rows(outcomes), sort)
-    results.write("summary.csv", csv_of(table).encode())
+    results.write(SUMMARY, csv_of(table).encode(errors="replace"))
     metrics = [sort, *(name for name in SHOWN_METRICS if name != sort)]
     page = overview(table, _settings(outcomes), metrics, results.title, results.names())
-    results.write("index.html", page.encode())
+    results.write(INDEX, page.encode(errors="replace"))
     return table
 
 
@@ -164,7 +166,7 @@ def _write_pages(outcomes: "Sequence[Outcome]", results: "Results") -> None:
             try:
                 write_page(review(results.fetch(record.log, Path(scratch))), page)
             except LogError as error:
-                typer.echo(f"{record.id}: no review: {error}", err=True)
+                say(f"{record.id}: no review: {error}")
             else:
                 results.write(f"{record.id}.html", page.read_bytes())
 
@@ -216,7 +218,7 @@ def _text(table: Sequence[Mapping[str, Any]], settings: Sequence[str], sort: str
     swept = [key for key in settings if len({repr(row.get(key)) for row in table}) > 1]
     names = [sort, *(name for name in SHOWN_METRICS if name != sort)][:4]
     figures = {name: Figure.of(name) for name in names}
-    heads = ["run", "result", *swept, *(figure.title for figure in figures.values())]
+    heads = ["run", "result", *map(printable, swept), *(figure.title for figure in figures.values())]
     cells = [
         [row["run"], row["result"], *(_short(row.get(key)) for key in swept), *(f.text(row.get(n)) for n, f in figures.items())]
         for row in table[:top]
@@ -243,22 +245,20 @@ def _cells(line: Sequence[str], widths: Sequence[int]) -> list[str]:
 
 
 def _short(value: Any) -> str:
-    return f"{value:.5g}" if isinstance(value, float) else "-" if value is None else str(value)
+    return f"{value:.5g}" if isinstance(value, float) else "-" if value is None else printable(str(value))
 
 
 def _end(outcomes: "Sequence[Outcome]", *, stopped: bool) -> None:
     """Say what was found; raises Exit(1) if anything was."""
     findings = [line for outcome in outcomes for line in _findings(outcome)]
     for line in findings[:_SHOWN_FINDINGS]:
-        typer.echo(line, err=True)
+        say(line)
     if len(findings) > _SHOWN_FINDINGS:
-        typer.echo(f"and {len(findings) - _SHOWN_FINDINGS} more; summary.csv has all", err=True)
+        say(f"and {len(findings) - _SHOWN_FINDINGS} more; summary.csv has all")
     left = sum(outcome.record is None or not outcome.record.final for outcome in outcomes)
     if left:
-        typer.echo(
-            f"{'stopped: ' if stopped else ''}{_runs(left)} not done; the same command flies {'it' if left == 1 else 'them'}",
-            err=True,
-        )
+        again = f"not done; the same command flies {'it' if left == 1 else 'them'}"
+        say(f"{'stopped: ' if stopped else ''}{_runs(left)} {again}")
     if findings or left:
         raise typer.Exit(1)
 

@@ -6,7 +6,8 @@ from contextlib import contextmanager
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-import typer
+from .streams import terminal_of
+from .text import say
 
 if TYPE_CHECKING:
     from ..batch import PlannedRun, Record
@@ -82,7 +83,7 @@ def _lines(count: Count) -> Iterator[Callable[[], None]]:
         nonlocal last
         if count.wall - last >= _LINE_EVERY or count.done == count.total:
             last = count.wall
-            typer.echo(count.text(), err=True)
+            say(count.text())
 
     yield update
 
@@ -92,6 +93,7 @@ def _bar(count: Count) -> Iterator[Callable[[], None]]:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn
 
-    with Progress(BarColumn(), TextColumn("{task.description}"), console=Console(stderr=True)) as bar:
+    console = Console(file=terminal_of(sys.stderr))
+    with Progress(BarColumn(), TextColumn("{task.description}"), console=console) as bar:
         task = bar.add_task(count.text(), total=count.total)
         yield lambda: bar.update(task, completed=count.done, description=count.text())

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..printable import printable
 from .options import AsJson
 
 if TYPE_CHECKING:
@@ -30,17 +31,18 @@ def compare(
         bool, typer.Option("--different-flights", help="Compare although the vehicle did not fly the same in all.")
     ] = False,
     as_json: AsJson = False,
-    force: Annotated[bool, typer.Option("--force", help="Replace an existing HTML file.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Replace the page of an earlier comparison.")] = False,
 ) -> None:
     """Put several logs of one flight side by side.
 
     Exit status 0: all are clean. 1: one has a finding or cannot be read. 2: bad usage, or logs of different flights.
     """
     from ..review import compare as compared
-    from .page import check_page
-    from .text import one_json
+    from .page import check_pages
+    from .text import one_json, say
 
-    check_page(html, force=force)
+    if html:
+        (html,) = check_pages([html], inputs=logs, force=force)
     comparison = compared(logs, different_flights=different_flights)
     if html:
         from ..review.page import write_comparison
@@ -50,7 +52,7 @@ def compare(
     if not comparison.clean:
         for name, each in zip(comparison.names, comparison.reviews, strict=True):
             for finding in each.findings:
-                typer.echo(f"{name}: {finding}", err=True)
+                say(f"{name}: {finding}")
         raise typer.Exit(1)
 
 
@@ -58,7 +60,8 @@ def comparison_table(comparison: "Comparison") -> str:
     """Every metric in a row, every log in a column; angles in degrees, shares in percent."""
     from ..review.figures import Figure
 
-    heads = [name if len(name) <= _LONGEST_NAME else f"{name[: _LONGEST_NAME - 2]}.." for name in comparison.names]
+    names = map(printable, comparison.names)
+    heads = [name if len(name) <= _LONGEST_NAME else f"{name[: _LONGEST_NAME - 2]}.." for name in names]
     rows = [("", heads), ("verdict", [each.verdict for each in comparison.reviews])]
     for name in comparison.metric_names():
         figure = Figure.of(name)

@@ -94,8 +94,9 @@ def live(
     if wait and not view:
         raise InputError("--wait needs --view, where 'engage' can be pressed")
     loaded = load_scenario(scenario, settings or (), trust_models=trust_models)
-    log = output or Path(f"{loaded.name}.mcap")
-    check_output(log, force=force, fresh=True)
+    read = [scenario, *loaded.inputs(), *([key] if key else [])]
+    asked = output or Path(f"{loaded.name}.mcap")
+    log = check_output(asked, inputs=read, force=force, fresh=True)
     until = _duration(duration, loaded)
     options = LiveOptions(rate, until, attended=view, engage=not wait, priority=priority, announce=not as_json)
     session = LiveSession(loaded, log, options)

@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager
+from ipaddress import AddressValueError, IPv4Address
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import typer
-
 from ..errors import InputError
+from .text import say
 
 if TYPE_CHECKING:
     from ..live.loop import Drives
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from ..scenario import Scenario
 
 _HIGHEST_PORT = 65535
+_EXAMPLE = "127.0.0.1:5600"  # of a receiver on this machine
 _LARGEST_KEY = 4096  # bytes of its file; keys have 32 at most
 
 
@@ -29,13 +30,13 @@ def followers(session: "LiveSession", scenario: "Scenario", view_port: int | Non
             press, allowed = session.buttons.press, allowed_buttons()
             viewer = ViewerProcess(session.ring, scenario.platform, press, allowed, port=view_port, title=scenario.name)
             stack.enter_context(viewer)
-            typer.echo(f"view: {viewer.url}", err=True)
+            say(f"view: {viewer.url}")
         if foxglove_port is not None:
             from ..live.foxglove import FoxgloveProcess
 
             server = FoxgloveProcess(session.ring, foxglove_port, scenario.platform.head_S, session.started_ns)
             stack.callback(server.close)
-            typer.echo(f"foxglove: {server.url}", err=True)
+            say(f"foxglove: {server.url}")
         yield
 
 
@@ -53,14 +54,27 @@ def drives(setpoints: str | None, key_file: Path | None) -> Iterator[Sequence["D
     with closing(SetPointSender(host, port, key=_key(key_file) if key_file else b"")) as sender:
         yield (sender,)
     if sender.unsent:
-        typer.echo(f"{sender.unsent} set points could not be sent to {setpoints}", err=True)
+        say(f"{sender.unsent} set points could not be sent to {setpoints}")
 
 
 def _address(text: str) -> tuple[str, int]:
-    host, _, port = text.rpartition(":")
-    if not host or not port.isdigit() or not 1 <= int(port) <= _HIGHEST_PORT:
-        raise InputError(f"--setpoints {text}, allowed: HOST:PORT with a port of 1 to {_HIGHEST_PORT}")
+    host, colon, port = text.rpartition(":")
+    wrong = "" if colon and host else "the port or the host is missing"
+    if not wrong and not (port.isascii() and port.isdigit() and 1 <= int(port) <= _HIGHEST_PORT):
+        wrong = f"port {port!r}, allowed: 1 to {_HIGHEST_PORT}"
+    if not wrong and not _is_numeric(host):
+        wrong = f"host {host!r}, allowed: a numeric IPv4 address, for names are not looked up"
+    if wrong:
+        raise InputError(f"--setpoints {text}: {wrong}; HOST:PORT is written as in {_EXAMPLE}")
     return host, int(port)
+
+
+def _is_numeric(host: str) -> bool:
+    try:
+        IPv4Address(host)
+    except AddressValueError:
+        return False
+    return True
 
 
 def _key(file: Path) -> bytes:

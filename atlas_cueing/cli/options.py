@@ -17,5 +17,5 @@ Settings: TypeAlias = Annotated[
     typer.Option("--set", metavar="KEY=VALUE", help="Set any key of the scenario or its platform; repeatable."),
 ]
 TrustModels: TypeAlias = Annotated[bool, typer.Option("--trust-models", help=TRUST_MODELS)]
-Force: TypeAlias = Annotated[bool, typer.Option("--force", help="Replace an existing log.")]
+Force: TypeAlias = Annotated[bool, typer.Option("--force", help="Replace an existing log, and nothing else.")]
 AsJson: TypeAlias = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]

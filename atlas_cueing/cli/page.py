@@ -1,17 +1,19 @@
-"""Where a page for the browser may go."""
+"""Where pages for the browser may go."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
-from ..errors import OutputError
 
+def check_pages(files: Sequence[Path | None], *, inputs: Sequence[Path], force: bool) -> list[Path | None]:
+    """Find out where pages go, by `batch.check_output`; None stands for one that is not asked for.
 
-def check_page(file: Path | None, *, force: bool) -> None:
-    """As `batch.check_output`, for a page. Raises OutputError when it cannot be written, or exists and `force` is not given."""
-    from ..batch import check_output
+    Raises OutputError when one cannot be written, or exists and may not be replaced.
+    """
+    from ..batch import PAGE, check_output
 
-    if file is None:
-        return
-    try:
-        check_output(file, force=force)
-    except OutputError as error:
-        raise OutputError(str(error).replace("log ", "page ", 1)) from error
+    real: list[Path | None] = []
+    for file in files:
+        others = [page for page in real if page]
+        checked = file and check_output(file, PAGE, inputs=inputs, outputs=others, force=force)
+        real.append(checked)
+    return real

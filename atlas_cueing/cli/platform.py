@@ -25,10 +25,10 @@ def platform(
     """
     from ..scenario import load_platform
     from .summary import kinematics, platform_summary
-    from .text import one_json
+    from .text import one_json, say
 
     figures = kinematics(load_platform(name_or_file))
     typer.echo(one_json(figures) if as_json else platform_summary(figures))
     if not figures["slip_free"]:
-        typer.echo("singular: the three induced rows are not independent (kinematic slip condition)", err=True)
+        say("singular: the three induced rows are not independent (kinematic slip condition)")
         raise typer.Exit(1)

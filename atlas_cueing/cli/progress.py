@@ -5,6 +5,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from time import perf_counter
 
+from ..printable import printable
+from .streams import terminal_of
+
 _SHORT = 1.0  # s; a run that is over by then shows nothing
 
 
@@ -20,10 +23,11 @@ def shown_progress(name: str, duration: float | None) -> Iterator[Callable[[floa
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-    columns = [TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[flown]}"), TimeRemainingColumn()]
+    name_column, flown_column = TextColumn("{task.description}", markup=False), TextColumn("{task.fields[flown]}")
+    columns = [name_column, BarColumn(), flown_column, TimeRemainingColumn()]
     begun = perf_counter()
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(name, total=duration, flown="", visible=False)
+    with Progress(*columns, console=Console(file=terminal_of(sys.stderr)), transient=True) as bar:
+        task = bar.add_task(printable(name), total=duration, flown="", visible=False)
 
         def progress(time: float) -> None:
             """Move the bar to the flight time, s."""

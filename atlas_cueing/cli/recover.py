@@ -29,14 +29,10 @@ def recover(
     Exit status 0: written. 1: nothing in it can be recovered. 2: bad usage, nothing was written.
     """
     from ..batch import check_output
-    from ..errors import InputError
     from ..review import recover as recovered
     from .text import aligned, one_json
 
-    check_output(output, force=force)
-    if output.exists() and broken.exists() and output.samefile(broken):
-        raise InputError(f"log {output}: is the broken log itself; choose another name")
-    result = recovered(broken, output)
+    result = recovered(broken, check_output(output, inputs=[broken], force=force))
     if as_json:
         typer.echo(one_json(result.to_json()))
         return

@@ -34,17 +34,14 @@ def recue(
     Exit status 0: written and clean. 1: the new log has a finding, or the old one is damaged. 2: bad input, nothing written.
     """
     from ..batch import check_output
-    from ..errors import InputError
     from ..review import recue as recued
     from ..review import review as judged
     from .review import review_summary
     from .text import one_json
 
-    check_output(output, force=force, fresh=True)
-    if output.exists() and log.exists() and output.samefile(log):
-        raise InputError(f"log {output}: is the log that is read; choose another name")
-    recued(log, settings or (), output)
-    found = judged(output)
+    new = check_output(output, inputs=[log], force=force, fresh=True)
+    recued(log, settings or (), new)
+    found = judged(new)
     typer.echo(one_json(found.to_json()) if as_json else review_summary(found))
     if not found.clean:
         raise typer.Exit(1)

@@ -37,7 +37,7 @@ def review(
     view: Annotated[bool, typer.Option("--view", help="Show the flight in a browser until Ctrl-C, with a play bar.")] = False,
     port: Annotated[int, typer.Option("--port", min=0, max=65535, help="Port of --view on this machine; 0: any.")] = 8080,
     as_json: AsJson = False,
-    force: Annotated[bool, typer.Option("--force", help="Replace existing HTML files.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Replace pages of earlier reviews.")] = False,
 ) -> None:
     """Judge a log by its own numbers.
 
@@ -47,11 +47,11 @@ def review(
     """
     from ..review import advice
     from ..review import review as judged
-    from .page import check_page
+    from .page import check_pages
     from .text import one_json
 
-    for file in (html, replay):
-        check_page(file, force=force)
+    if html or replay:
+        html, replay = check_pages([html, replay], inputs=[log], force=force)
     try:
         found = judged(log)
     except LogError as error:
@@ -78,7 +78,9 @@ def review(
 
 
 def _tell(url: str) -> None:
-    typer.echo(f"view: {url} (end with Ctrl-C)", err=True)
+    from .text import say
+
+    say(f"view: {url} (end with Ctrl-C)")
 
 
 def review_summary(found: "Review") -> str:

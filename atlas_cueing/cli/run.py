@@ -38,8 +38,9 @@ def run(
     from .text import one_json
 
     loaded = load_scenario(scenario, settings or (), trust_models=trust_models)
-    log = output or Path(f"{loaded.name}.mcap")
-    check_output(log, force=force, fresh=True)
+    read = (scenario, *loaded.inputs())
+    asked = output or Path(f"{loaded.name}.mcap")
+    log = check_output(asked, inputs=read, force=force, fresh=True)
     with shown_progress(loaded.name, loaded.file.duration_s) as progress:
         result = run_scenario(loaded, log, progress=progress)
     typer.echo(one_json(result.to_json()) if as_json else run_summary(result))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from ..wheels import headroom
-from .text import aligned
+from .text import aligned, say
 
 if TYPE_CHECKING:  # what is shown has been loaded by whoever made it
     from ..batch import RunResult
@@ -36,7 +36,7 @@ def end(result: "RunResult | LiveResult") -> None:
     """Say on stderr what was found. Raises Exit(1) if anything was."""
     if not result.clean:
         for finding in ([f"{result.result}: {result.reason}"] if result.reason else []) + list(result.evaluation.violations):
-            typer.echo(finding, err=True)
+            say(finding)
         raise typer.Exit(1)
 
 

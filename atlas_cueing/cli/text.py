@@ -5,6 +5,10 @@ from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import Any
 
+import typer
+
+from ..printable import printable
+
 TRUST_MODELS = "Fly a script that lies beside the scenario; it is a program of whoever wrote it."  # help of --trust-models
 
 
@@ -14,9 +18,14 @@ def one_json(figures: Mapping[str, Any]) -> str:
 
 
 def aligned(rows: Sequence[tuple[str, str]], indent: str = "  ") -> list[str]:
-    """Lines of name and value, the values under each other."""
+    """Lines of name and value, the values under each other and each on one line."""
     width = max((len(name) for name, _ in rows), default=0)
-    return [f"{indent}{name:<{width}}  {value}".rstrip() for name, value in rows]
+    return [f"{indent}{name:<{width}}  {printable(value)}".rstrip() for name, value in rows]
+
+
+def say(line: str) -> None:
+    """Print one line on stderr; a line break in it, which can only be part of a name, is written out."""
+    typer.echo(printable(line), err=True)
 
 
 def _plain(value: Any) -> Any:

@@ -16,6 +16,7 @@ from .supervisor import GOOD_TO_ENGAGE, Supervisor
 
 MOST_MISSED = 5  # deadlines in a row; with one more the platform is stopped
 MOST_LATE = 0.020  # s that a tick may be late
+_REMEDY = "what helps: --priority, a lower --rate, fewer programs beside it"
 
 _ASKED = {"engage": Event.ENGAGE, "hold": Event.HOLD, "park": Event.PARK, "reset": Event.RESET}
 _FAULT = (State.FAULT_STOPPING, State.STOPPED)
@@ -114,9 +115,10 @@ class Conductor:
 
     def _judge_punctuality(self, lateness: float, missed_in_a_row: int) -> None:
         if lateness > MOST_LATE:
-            self._fail(f"a tick began {1e3 * lateness:.1f} ms late, allowed: at most {1e3 * MOST_LATE:.0f} ms")
+            late, most = 1e3 * lateness, 1e3 * MOST_LATE
+            self._fail(f"a tick began {late:.1f} ms late, allowed: at most {most:.0f} ms; {_REMEDY}")
         elif missed_in_a_row > MOST_MISSED:
-            self._fail(f"{missed_in_a_row} deadlines missed in a row, allowed: at most {MOST_MISSED}")
+            self._fail(f"{missed_in_a_row} deadlines missed in a row, allowed: at most {MOST_MISSED}; {_REMEDY}")
 
     def _listen(self, elapsed: float) -> None:
         """To the operator, to signals, and to the clock."""

@@ -7,6 +7,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from ..errors import OutputError
+from ..printable import printable
 from ..recording import McapRecorder, Ring, RingReader
 from ..recording.live import END, STATUS, TICK, numbers, status
 from ..recording.log import Status
@@ -124,4 +125,4 @@ def tell(line: str) -> None:
     _, ready, _ = select.select([], [_STDERR], [], 0.0)
     if ready:
         with suppress(OSError):
-            os.write(_STDERR, f"{line}\n".encode(errors="backslashreplace"))
+            os.write(_STDERR, f"{printable(line)}\n".encode())

@@ -1,7 +1,9 @@
 """Ticks into an MCAP log, byte for byte the same for the same run."""
 
+import errno
 import fcntl
 import os
+import stat
 from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from struct import Struct
@@ -9,16 +11,20 @@ from struct import Struct
 import numpy as np
 
 from ..errors import OutputError
+from ..printable import utf8
 from ..rotation import Vec3
 from ..signals import LIVE_TOPICS, TOPICS, Tick, tick_row
 from .chunk import ELAPSED, LIVE_ROW, ROW, ChunkEncoder, Extra, with_felt
 from .container import Container
 from .schemas import STATUS, STATUS_SCHEMA, TF, message_class, schema_of, status_schema
+from .whole_file import Destination
 from .wire import EPOCH_NS, LATEST_S, Array, Times, live_log_times, log_times, record_template
 
 RUN_METADATA = "atlas.run"
 MAX_CHUNK_TICKS = 16384  # 16 MB of messages: well inside what the reader will unpack
 _NAMES = (*(topic.name for topic in LIVE_TOPICS), STATUS, TF)
+# Neither a link is followed nor a FIFO's reader waited for.
+_OPENING = os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW | os.O_NONBLOCK
 _BEFORE_START = -1.0  # s; no tick yet
 _pack = Struct(f"{ROW}d").pack
 
@@ -27,7 +33,9 @@ class McapRecorder:
     """A Sink that writes an MCAP log.
 
     It is written as `path`.part, chunk by chunk, and takes its name when it is complete; a recorder that is dropped leaves
-    the .part with all chunks up to then. Whether an existing log may be replaced is for the caller to decide.
+    the .part with all chunks up to then. Whether an existing log may be replaced is for the caller to decide; what appears
+    there in the meantime stays. A link is followed: the log is written where it points. Bytes of names that are not UTF-8
+    become question marks in the log.
     """
 
     def __init__(
@@ -63,7 +71,6 @@ class McapRecorder:
         _check_options(chunk_ticks, skip_topics)
         self._path = path
         self._head_S = head_S
-        self._part = path.with_name(path.name + ".part")
         self._metadata = dict(metadata)
         self._rows = bytearray()
         self._started = started_ns
@@ -76,10 +83,16 @@ class McapRecorder:
         self._latest_log_time = started_ns or EPOCH_NS
         self._failure = ""
         try:
+            self._destination = Destination(path)
             self._open()
             self._start(attachments, skip_topics)
         except OSError as error:
             raise self._fail(error) from error
+
+    @property
+    def part(self) -> Path:
+        """What the log is called until it is complete; it lies beside the real file."""
+        return self._destination.path.with_name(f"{self._destination.path.name}.part")
 
     def append(self, tick: Tick) -> None:
         """Keep one tick. Raises OutputError when this or any earlier chunk could not be written."""
@@ -97,7 +110,8 @@ class McapRecorder:
         """Keep a change of state at `time` (s); it stands after the ticks up to that time."""
         self._refuse_after_failure()
         self._check_time(STATUS, np.array([time]), _BEFORE_START)
-        self._statuses.append((time, self._status_class(time_s=time, state=state, reason=reason).SerializeToString()))
+        change = self._status_class(time_s=time, state=utf8(state), reason=utf8(reason))
+        self._statuses.append((time, change.SerializeToString()))
 
     def close(self, result: str, reason: str) -> None:
         """Write what is left, add result and reason to the metadata, and give the log its name.
@@ -106,11 +120,12 @@ class McapRecorder:
         """
         self.flush()
         try:
-            self._container.add_metadata(RUN_METADATA, {**self._metadata, "result": result, "reason": reason})
+            told = {**self._metadata, "result": result, "reason": reason}
+            self._container.add_metadata(RUN_METADATA, {utf8(key): utf8(told[key]) for key in told})
             self._container.finish()
             os.fsync(self._file)  # or a power cut could leave the name without its bytes
             self._release()
-            os.replace(self._part, self._path)
+            self._destination.take(self.part)
             self._stop("the recorder is closed")
         except OSError as error:
             raise self._fail(error) from error
@@ -130,7 +145,11 @@ class McapRecorder:
 
     def _open(self) -> None:
         """An empty file that nobody else writes."""
-        self._file = os.open(self._part, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o666)
+        if self.part.is_symlink():
+            raise OSError(errno.ELOOP, f"{self.part} is a symbolic link")
+        self._file = os.open(self.part, _OPENING, 0o666)
+        if not stat.S_ISREG(os.fstat(self._file).st_mode):
+            raise OSError(errno.EINVAL, f"{self.part} is no regular file")
         _hold(self._file)
         if os.fstat(self._file).st_size:
             os.ftruncate(self._file, 0)

@@ -24,6 +24,7 @@ from .chunk import EncodedChunk
 from .container import MAGIC, Container
 from .recorder import RUN_METADATA
 from .records import MAX_RECORD, unpack
+from .whole_file import Destination
 from .wire import MESSAGE_OPCODE, RECORD_HEAD
 
 MAX_SEARCHED = 256 * 2**20  # bytes that are no record, in which chunks are looked for; 10 GB of them would take a minute
@@ -110,11 +111,12 @@ def rewrite(found: Salvage, output: Path, metadata: Mapping[str, str]) -> None:
 
     Raises LogError when the descriptions of the channels are lost, and OSError when it cannot be written.
     """
-    part = output.with_name(output.name + ".recovering")  # the .part may be the very log that is recovered
+    destination = Destination(output)
+    part = destination.passing()  # the .part may be the very log that is recovered
     try:
-        with part.open("wb") as target, found.path.open("rb") as source:
+        with part.open("xb") as target, found.path.open("rb") as source:
             _write(found, source, Container(target.write), metadata)
-        part.replace(output)
+        destination.take(part)
     except OSError:
         part.unlink(missing_ok=True)  # half of it is of no use: the broken log is still there
         raise

@@ -1,12 +1,12 @@
 """One self-contained HTML file of a review or a comparison: it opens from disk, without any network."""
 
 from collections.abc import Sequence
-from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import MissingExtraError, OutputError
-from ..recording.whole_file import write_whole
+from ..printable import html_text
+from ..recording.whole_file import write_page as write_file
 from .comparison import Comparison
 from .figures import Figure, telling
 from .punctuality import is_live
@@ -57,11 +57,11 @@ def write_comparison(comparison: Comparison, file: Path) -> None:
     plots = _plots()
     runs = [each.run for each in comparison.reviews]
     heads = "".join(
-        f"<tr><td>{escape(name)}</td><td>{_verdict(each)}</td><td>{escape(str(each.run.log.path))}</td></tr>"
+        f"<tr><td>{html_text(name)}</td><td>{_verdict(each)}</td><td>{html_text(str(each.run.log.path))}</td></tr>"
         for name, each in zip(comparison.names, comparison.reviews, strict=True)
     )
     sections = [
-        ("", f"<h1>{' against '.join(escape(name) for name in comparison.names)}</h1><table>{heads}</table>"),
+        ("", f"<h1>{' against '.join(html_text(name) for name in comparison.names)}</h1><table>{heads}</table>"),
         ("Rider less pilot, net turns, and what was limited", _headlines(comparison)),
         (f"Over time: {_ZOOM}", plots.overlays(comparison.names, runs)),
         ("Every figure", _metrics(comparison.names, comparison.metric_names(), [each.metrics for each in comparison.reviews])),
@@ -107,23 +107,23 @@ def _header(found: Review) -> str:
     errors = [name for name in telling(found.metrics) if "_rms_" in name]
     others = [name for name in telling(found.metrics) if name not in errors]
     return (
-        f"<h1>{escape(title)} {_verdict(found)}</h1><div class='columns'>{_table(told)}"
+        f"<h1>{html_text(title)} {_verdict(found)}</h1><div class='columns'>{_table(told)}"
         f"{_columns(['rider less pilot'], errors, [found.metrics])}{_columns(['whole run'], others, [found.metrics])}</div>"
     )
 
 
 def _verdict(found: Review) -> str:
-    return f"<span class='verdict{' clean' if found.clean else ''}'>{escape(found.verdict)}</span>"
+    return f"<span class='verdict{' clean' if found.clean else ''}'>{html_text(found.verdict)}</span>"
 
 
 def _findings(found: Review) -> str:
-    lines = [f"<li class='finding'>{escape(str(finding))}</li>" for finding in found.findings]
-    lines += [f"<li>{escape(note)}</li>" for note in found.notes]
+    lines = [f"<li class='finding'>{html_text(str(finding))}</li>" for finding in found.findings]
+    lines += [f"<li>{html_text(note)}</li>" for note in found.notes]
     return f"<h2>Findings and notes</h2><ul>{''.join(lines)}</ul>" if lines else ""
 
 
 def _table(rows: Sequence[tuple[str, str]]) -> str:
-    return "<table>" + "".join(f"<tr><td>{escape(a)}</td><td>{escape(b)}</td></tr>" for a, b in rows) + "</table>"
+    return "<table>" + "".join(f"<tr><td>{html_text(a)}</td><td>{html_text(b)}</td></tr>" for a, b in rows) + "</table>"
 
 
 def _metrics(heads: Sequence[str], names: Sequence[str], columns: Sequence[dict[str, float]]) -> str:
@@ -133,11 +133,11 @@ def _metrics(heads: Sequence[str], names: Sequence[str], columns: Sequence[dict[
 
 def _columns(heads: Sequence[str], names: Sequence[str], columns: Sequence[dict[str, float]]) -> str:
     """Metrics by name, one column a log."""
-    rows = [f"<tr><th></th>{''.join(f'<th>{escape(head)}</th>' for head in heads)}</tr>"]
+    rows = [f"<tr><th></th>{''.join(f'<th>{html_text(head)}</th>' for head in heads)}</tr>"]
     for name in names:
         figure = Figure.of(name)
         cells = "".join(f"<td class='number'>{figure.text(column.get(name))}</td>" for column in columns)
-        rows.append(f"<tr><td>{escape(figure.title.replace('/s2', '/s²'))}</td>{cells}</tr>")
+        rows.append(f"<tr><td>{html_text(figure.title.replace('/s2', '/s²'))}</td>{cells}</tr>")
     return f"<table>{''.join(rows)}</table>"
 
 
@@ -145,14 +145,14 @@ def _write(file: Path, title: str, sections: "Sequence[tuple[str, str | Plot]]")
     from plotly.offline import get_plotlyjs
 
     pieces = [
-        f"<!doctype html><html lang='en'><head><meta charset='utf-8'><title>{escape(title)}</title>",
+        f"<!doctype html><html lang='en'><head><meta charset='utf-8'><title>{html_text(title)}</title>",
         f"<style>{_STYLE}</style><script>{get_plotlyjs()}</script></head><body>",
     ]
     for heading, content in sections:
-        pieces.append(f"<h2>{escape(heading)}</h2>" if heading else "")
+        pieces.append(f"<h2>{html_text(heading)}</h2>" if heading else "")
         pieces.append(content if isinstance(content, str) else _html(content))
     try:
-        write_whole(file, "".join([*pieces, "</body></html>\n"]))
+        write_file(file, "".join([*pieces, "</body></html>\n"]))
     except OSError as error:
         raise OutputError(f"page {file}: {error.strerror}") from error
 

@@ -7,6 +7,7 @@ import numpy as np
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
+from ..printable import html_text
 from .course import spells
 from .finding import Array, Finding
 from .recorded_run import RecordedRun
@@ -77,7 +78,7 @@ def overlays(names: Sequence[str], runs: Sequence[RecordedRun]) -> Any:
         for row, values in enumerate(columns, 1):
             values = _quiet(values)
             kept = thinned(values[:, None])
-            trace = line(flight.time[kept], values[kept], name, SERIES[k % len(SERIES)], legend=row == 1)
+            trace = line(flight.time[kept], values[kept], html_text(name), SERIES[k % len(SERIES)], legend=row == 1)
             figure.add_trace(trace, row=row, col=1)
     return styled(figure, height=240 * len(titles), rows=True)
 
@@ -201,7 +202,7 @@ def _mark(figure: Any, findings: Sequence[Finding]) -> None:
             go.Scatter(
                 x=[finding.time for finding in timed],
                 y=[0.0] * len(timed),
-                text=[f"{finding.place}: {finding.check}" for finding in timed],
+                text=[html_text(f"{finding.place}: {finding.check}") for finding in timed],
                 hovertemplate="%{text}<br>%{x} s<extra></extra>",
                 mode="markers",
                 name="finding",

@@ -72,7 +72,9 @@ def largest_content(path: Path) -> int:
     """Bytes that the file may unpack to. Raises InputError when it is no file."""
     try:
         if not path.is_file():
-            raise InputError(f"log {path}: no such file" if not path.exists() else f"log {path}: not a regular file")
+            there = "not a regular file" if path.exists() else "no such file"
+            hint = "is a folder; name one of the logs in it"
+            raise InputError(f"log {path}: {hint if path.is_dir() else there}")
         return max(SMALLEST_BOUND, LARGEST_RATIO * path.stat().st_size)
     except (OSError, ValueError) as error:  # a name that is too long; a NUL in it
         raise InputError(f"log {path}: {error}") from error

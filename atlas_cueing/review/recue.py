@@ -35,7 +35,7 @@ def recue(path: Path, settings: Sequence[str], output: Path) -> Scenario:
         try:
             scenario = _cued_by(folder / SCENARIO, [_from_here(text) for text in settings])
         except ScenarioError as error:
-            raise InputError("\n".join(as_inside(ScenarioError([mistake]), folder) for mistake in error.mistakes)) from error
+            raise InputError(*(as_inside(ScenarioError([mistake]), folder) for mistake in error.mistakes)) from error
         attachments = scenario.attachments()
     vehicle, pipeline = prepare(scenario, recorded)
     recorder = _recorder(output, scenario, log, attachments)
@@ -48,7 +48,7 @@ def recue(path: Path, settings: Sequence[str], output: Path) -> Scenario:
         recorder.close(log.metadata.get("result", ""), log.metadata.get("reason", ""))
     except OutputError:
         recorder.abandon()
-        output.with_name(f"{output.name}.part").unlink(missing_ok=True)  # half of it is of no use: the flight is still there
+        recorder.part.unlink(missing_ok=True)  # half of it is of no use: the flight is still there
         raise
     return scenario
 

@@ -10,12 +10,13 @@ from typing import Any, TypeVar
 from pydantic import ValidationError
 
 from ..errors import Mistake, ScenarioError
+from ..printable import is_name
 from .cueing import ALL_METHODS, DEFAULT_METHOD
 from .mistakes import MOST_SHOWN, SET, FileNamer, Key, dotted, mistakes_of, more, nearest
 from .overrides import Overrides, apply_overrides, parse_overrides, with_own
 from .platform import Platform, presets
 from .reading import TomlFiles, read_toml
-from .scenario import Scenario, ScenarioFile, is_path
+from .scenario import Scenario, ScenarioFile
 from .table import Table
 from .vehicle import vehicle_rules
 
@@ -33,6 +34,10 @@ def load_scenario(path: Path, overrides: Sequence[str] = (), *, trust_models: bo
 
     trust_models: whether a script beside the scenario may be flown; it can be read and cued anew in any case.
     """
+    if os.path.isdir(path):
+        batch = f"to fly all scenarios in it: atlas-cueing batch {path} -o RESULTS"
+        allowed = f"is a folder, not a regular file; {batch}"
+        raise ScenarioError([Mistake(str(path), "file", "", allowed)])
     settings = parse_overrides(overrides)
     return resolve(read_toml(path), settings, path, trust_models=trust_models)
 
@@ -133,7 +138,7 @@ def _chosen_platform(choice: Any, folder: Path, overrides: Overrides, known: Kno
     preset, file = (choice.get(key) for key in _CHOICE)
     if isinstance(preset, str) and preset in presets() and file is None:
         return known.platform(presets()[preset], overrides)
-    if isinstance(file, str) and is_path(file) and preset is None:
+    if isinstance(file, str) and is_name(file) and preset is None:
         return known.platform(folder / file, overrides)
     return None, []
 

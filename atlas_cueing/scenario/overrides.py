@@ -5,6 +5,7 @@ from copy import copy
 from typing import Any, TypeAlias
 
 from ..errors import Mistake, ScenarioError
+from ..printable import printable, utf8
 from .mistakes import SET, Key, dotted, shown
 from .reading import parse_toml
 
@@ -29,8 +30,10 @@ def parse_overrides(texts: Sequence[str]) -> Overrides:
     for text in texts:
         key, equals, value = text.partition("=")
         parts = tuple(int(part) if part.isdecimal() and part.isascii() else part for part in key.strip().split("."))
-        if not equals or "" in parts:
-            mistakes.append(Mistake(SET, text, "", "allowed: KEY=VALUE, with a dotted key such as cueing.method=blend"))
+        if not equals or "" in parts or utf8(key) != key:
+            mistakes.append(
+                Mistake(SET, printable(text), "", "allowed: KEY=VALUE, with a dotted key such as cueing.method=blend")
+            )
         else:
             overrides.pop(parts, None)
             overrides[parts] = _value(value.strip())

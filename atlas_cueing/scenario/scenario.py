@@ -9,6 +9,7 @@ import tomli_w
 from pydantic import BeforeValidator
 
 from ..errors import InputError
+from ..printable import is_name, utf8
 from ..recording.recorder import MAX_CHUNK_TICKS
 from ..vehicles.private_copy import beside, read_users
 from .cueing import BlendTable, CueingTable, PreviewTable
@@ -30,11 +31,6 @@ def _known_preset(value: Any) -> str:
     return value
 
 
-def is_path(text: str) -> bool:
-    """Whether a text can be a path, and be shown in one line of a message."""
-    return text != "" and text.isprintable()
-
-
 def _dispensable(value: Any) -> str:
     if value not in DISPENSABLE_TOPICS:
         raise refuse(f"{', '.join(DISPENSABLE_TOPICS)}; a run is evaluated from the others")
@@ -49,7 +45,7 @@ class PlatformChoice(Table):
     """
 
     preset: Annotated[str, BeforeValidator(_known_preset)] | None = None
-    file: Annotated[str, text("path of a platform file, from the scenario's folder", is_path)] | None = None
+    file: Annotated[str, text("path of a platform file, from the scenario's folder", is_name)] | None = None
 
 
 def _as_tuple(value: Any) -> Any:
@@ -116,6 +112,15 @@ class Scenario:
         self._check_trust()
         return self.file.vehicle.live_flight(self.file.duration_s, self.folder)
 
+    def inputs(self) -> tuple[Path, ...]:
+        """Return the files beside the scenario's own that it is made of; they may be missing."""
+        vehicle, platform = self.file.vehicle, self.file.platform.file
+        files = [self.folder / name for name in (platform, vehicle.log) if name is not None]
+        script = vehicle.user_script(self.folder)
+        if script is not None:
+            files += [script, *_beside(script, read_users(script))]
+        return tuple(files)
+
     def _check_trust(self) -> None:
         """A script can hold whatever JSBSim understands: it is a program, of whoever wrote it."""
         script = self.file.vehicle.user_script(self.folder)
@@ -133,7 +138,7 @@ class Scenario:
             del table["vehicle"]["input"]  # a script must not have any
         script = self.file.vehicle.user_script(self.folder)
         if script is not None:
-            table["vehicle"]["script"] = f"./{script.name}"  # never mistaken for one of JSBSim's own
+            table["vehicle"]["script"] = f"./{utf8(script.name)}"  # never mistaken for one of JSBSim's own
         return tomli_w.dumps(table)
 
     def platform_toml(self) -> str:
@@ -145,9 +150,11 @@ class Scenario:
         files = {}
         script = self.file.vehicle.user_script(self.folder)
         if script is not None:
-            files[script.name] = read_users(script)
-            files |= {path.name: read_users(path) for path in _beside(script, files[script.name])}
-        return files | {"scenario.toml": self.scenario_toml().encode(), "platform.toml": self.platform_toml().encode()}
+            content = read_users(script)
+            files = {path.name: read_users(path) for path in _beside(script, content)}
+            files |= {utf8(script.name): content}
+        tables = {"scenario.toml": self.scenario_toml(), "platform.toml": self.platform_toml()}
+        return files | {name: table.encode(errors="replace") for name, table in tables.items()}
 
 
 def _plain(table: Table) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from typing import Annotated, Any, TypeAlias
 from pydantic import BeforeValidator, Field, ValidationInfo
 
 from ..errors import InputError
+from ..printable import is_name
 from ..vehicles import (
     AircraftFlight,
     FlightgearFlight,
@@ -163,7 +164,7 @@ class VehicleTable(Table):
     force_follows_attitude: bool | None = None
     host: Annotated[str, BeforeValidator(_loopback)] | None = None
     port: Annotated[int, whole(1, 65535)] | None = None
-    log: Annotated[str, text("path of a log", lambda path: path.isprintable() and 0 < len(path) <= _LONGEST_PATH)] | None = None
+    log: Annotated[str, text("path of a log", lambda path: is_name(path) and len(path) <= _LONGEST_PATH)] | None = None
 
     def user_script(self, folder: Path) -> Path | None:
         """The script file beside the scenario; None for one of JSBSim's own and for an aircraft."""

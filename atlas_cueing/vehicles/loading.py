@@ -7,7 +7,8 @@ from xml.etree.ElementTree import Element
 
 import jsbsim
 
-from ..errors import InputError
+from ..errors import InputError, OutputError
+from ..printable import utf8
 from .flights import DEFAULT_RATE_HZ, MAX_RATE_HZ, MIN_RATE_HZ, AircraftFlight, ScriptFlight
 from .jsbsim_log import JsbsimLog, capture
 from .library import is_property_name, own_aircraft, root, suggestion, writable_names
@@ -29,6 +30,7 @@ def load(flight: ScriptFlight | AircraftFlight) -> jsbsim.FGFDMExec:
     log = capture()
     rate_hz = flight.rate_hz
     with TemporaryDirectory(prefix="atlas_cueing_") as folder:
+        _refuse_names(folder, str(root()))
         fdm = jsbsim.FGFDMExec(str(root()))
         fdm.set_debug_level(_SILENT)
         fdm.set_aircraft_path(str(Path(folder) / "aircraft"))
@@ -41,6 +43,13 @@ def load(flight: ScriptFlight | AircraftFlight) -> jsbsim.FGFDMExec:
     if rate_hz is not None:
         fdm.set_dt(1.0 / _checked(rate_hz))
     return fdm
+
+
+def _refuse_names(*folders: str) -> None:
+    """Refuse folders that JSBSim cannot be told of: it takes only names that are UTF-8."""
+    for folder in folders:
+        if utf8(folder) != folder:
+            raise OutputError(f"folder {folder}: its name is not UTF-8, which JSBSim needs; set TMPDIR")
 
 
 def _load_script(fdm: jsbsim.FGFDMExec, script: Path, folder: Path, log: JsbsimLog) -> None:

@@ -1,8 +1,9 @@
 """State of a live run in words, and the operator's buttons."""
 
 from collections.abc import Callable, Collection, Mapping
-from html import escape
 from typing import TYPE_CHECKING, Literal
+
+from ..printable import html_text
 
 if TYPE_CHECKING:
     from viser import GuiApi
@@ -43,8 +44,8 @@ class Controls:
         colour = _COLOURS.get(state, _OTHER)
         self._head.content = (
             f'<div style="background:{colour};color:#fff;border-radius:6px;margin:8px 10px;padding:10px 14px">'
-            f'<div id="state" style="font-size:26px;font-weight:700">{escape(state.replace("_", " "))}</div>'
-            f'<div id="reason" style="font-size:13px;min-height:1.3em">{escape(reason)}</div></div>'
+            f'<div id="state" style="font-size:26px;font-weight:700">{html_text(state.replace("_", " "))}</div>'
+            f'<div id="reason" style="font-size:13px;min-height:1.3em">{html_text(reason)}</div></div>'
         )
         for name, button in self._buttons.items():
             button.disabled = name not in self._allowed.get(state, ())
@@ -73,5 +74,5 @@ class Controls:
         else:
             note = f"{name} does nothing when {self._state.replace('_', ' ')}"
         self._note.content = (
-            f'<div id="note" style="margin:4px 14px;font-size:13px;color:#2c3440;min-height:1.4em">{escape(note)}</div>'
+            f'<div id="note" style="margin:4px 14px;font-size:13px;color:#2c3440;min-height:1.4em">{html_text(note)}</div>'
         )

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import OutputError
 from ..evaluation import Flight
-from ..recording.whole_file import write_whole
+from ..recording.whole_file import write_page
 from ..scenario import Platform
 from .forces import largest_g
 from .recorded import RecordedMotion
@@ -40,7 +40,7 @@ def write_replay(platform: Platform, flight: Flight, file: Path) -> None:
     finally:
         close_server(server)
     try:
-        write_whole(file, html)
+        write_page(file, html)
     except OSError as error:
         raise OutputError(f"page {file}: {error.strerror}") from error
 

@@ -9,6 +9,7 @@ from io import StringIO
 from typing import TYPE_CHECKING
 
 from ..errors import InputError, MissingExtraError
+from ..printable import printable
 from .gate import HOST, gated, silence
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ def open_server(port: int, title: str | None = None) -> "ViserServer":
     from viser import ViserServer
 
     with redirect_stdout(StringIO()), gated():  # a banner
-        server = ViserServer(host=HOST, port=port, label=title, verbose=False)
+        server = ViserServer(host=HOST, port=port, label=title and printable(title), verbose=False)
     if port not in (0, server.get_port()):  # viser takes the next one that is free
         close_server(server)
         raise InputError(f"port {port}: in use; choose another one, or 0 for any that is free")

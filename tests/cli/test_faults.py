@@ -76,11 +76,11 @@ def test_a_second_run_on_the_same_log_is_refused_while_the_first_goes_on(
 
 
 def test_what_a_killed_run_left_is_not_overwritten(tmp_path: Path, command: Command) -> None:
-    (tmp_path / "short.mcap.part").write_text("precious")
+    (tmp_path / "short.mcap.part").write_bytes(b"\x89MCAP precious")
     ended = command("run", "s.toml")
     assert (ended.status, ended.out) == (2, "")
     assert "atlas-cueing recover short.mcap.part -o" in ended.err
-    assert (tmp_path / "short.mcap.part").read_text() == "precious"
+    assert (tmp_path / "short.mcap.part").read_bytes() == b"\x89MCAP precious"
     assert command("run", "s.toml", "--force").status == 0
     assert sorted(path.name for path in tmp_path.iterdir()) == ["s.toml", "short.mcap"]
 

@@ -33,7 +33,7 @@ def test_without_settings_nothing_changes(command: Command, log: Path) -> None:
 def test_bad_usage_writes_nothing(command: Command, tmp_path: Path) -> None:
     for arguments, message in (
         (["missing.mcap", "-o", "new.mcap"], "no such file"),
-        (["short.mcap", "-o", "short.mcap", "--force"], "is the log that is read"),
+        (["short.mcap", "-o", "short.mcap", "--force"], "is a file that is read"),
         (["short.mcap", "-o", "s.toml"], "exists already"),
         (["short.mcap", "-o", "new.mcap", "--set", "vehicle.script=c1723"], "the flight is the recorded one"),
         (["short.mcap", "-o", "new.mcap", "--set", "cueing.method=x", "--set", "platform.preset=y"], "--set: cueing.method"),

@@ -73,7 +73,7 @@ def test_a_damaged_log_names_the_remedy(command: Command, log: Path) -> None:
     ("arguments", "message"),
     [
         (["missing.mcap"], "no such file"),
-        (["."], "not a regular file"),
+        (["."], "is a folder; name one of the logs in it"),
         (["short.mcap", "--html", "no/such/page.html"], "page no/such/page.html: there is no folder no/such"),
         (["short.mcap", "--html", "s.toml"], "page s.toml: exists already"),
         (["short.mcap", "--replay", "."], "no regular file"),

@@ -34,11 +34,11 @@ def test_a_run_for_programs(command: Command) -> None:
 
 
 def test_an_existing_log_is_kept_without_force(command: Command, tmp_path: Path) -> None:
-    (tmp_path / "short.mcap").write_text("precious")
+    (tmp_path / "short.mcap").write_bytes(b"\x89MCAP precious")
     ended = command("run", "s.toml")
     assert (ended.status, ended.out) == (2, "")
     assert "--force" in ended.err
-    assert (tmp_path / "short.mcap").read_text() == "precious"
+    assert (tmp_path / "short.mcap").read_bytes() == b"\x89MCAP precious"
     assert command("run", "s.toml", "--force").status == 0
     assert read_log(tmp_path / "short.mcap").metadata["result"] == "ok"
 
@@ -68,7 +68,7 @@ def test_every_mistake_is_a_line_of_its_own(command: Command, tmp_path: Path) ->
     ("arguments", "message"),
     [
         (["missing.toml"], "missing.toml: file: cannot be read"),
-        (["."], "not a regular file"),
+        (["."], "to fly all scenarios in it: atlas-cueing batch . -o RESULTS"),
         (["s.toml", "-o", "no/such/folder.mcap"], "there is no folder"),
         (["s.toml", "-o", ".", "--force"], "no regular file"),
         (["s.toml", "-o", "x" * 300], "File name too long"),

@@ -64,7 +64,14 @@ class Good:
     """A log that has nothing wrong with it."""
 
 
-Content: TypeAlias = str | bytes | Pipe | Link | Hole | Folder | Good
+@dataclass(frozen=True)
+class Same:
+    """A hard link to a file that comes before it."""
+
+    file: str
+
+
+Content: TypeAlias = str | bytes | Pipe | Link | Same | Hole | Folder | Good
 
 
 @dataclass(frozen=True)
@@ -179,6 +186,8 @@ def _make(path: Path, content: Content, log: bytes) -> None:
             os.mkfifo(path)
         case Link():
             path.symlink_to(content.target)
+        case Same():
+            path.hardlink_to(path.with_name(content.file))
         case Folder():
             path.mkdir()
         case Hole():

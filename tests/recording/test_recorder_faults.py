@@ -8,10 +8,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from live.logs import largest_file
 from mcap.exceptions import EndOfFile
 
 from atlas_cueing.errors import OutputError
-from atlas_cueing.recording import McapRecorder
+from atlas_cueing.recording import McapRecorder, read_log
 from atlas_cueing.rotation import ZERO
 from atlas_cueing.signals import TOPICS, Tick, VehicleState
 
@@ -96,8 +97,7 @@ def test_a_folder_that_does_not_exist_is_one_clear_error(tmp_path: Path) -> None
 
 
 def test_a_full_disk_at_the_start(tmp_path: Path) -> None:
-    (tmp_path / "x.mcap.part").symlink_to("/dev/full")
-    with pytest.raises(OutputError, match="No space left on device"):
+    with largest_file(1000), pytest.raises(OutputError, match="File too large"):
         open_recorder(tmp_path / "x.mcap")
     assert not (tmp_path / "x.mcap").exists()
 
@@ -142,9 +142,9 @@ def test_a_file_size_limit_of_the_system(tmp_path: Path) -> None:
 
 
 def test_a_failed_rename_leaves_the_part(tmp_path: Path) -> None:
-    (tmp_path / "x.mcap").mkdir()
     recorder = open_recorder(tmp_path / "x.mcap")
-    with pytest.raises(OutputError, match="Is a directory"):
+    (tmp_path / "x.mcap").mkdir()
+    with pytest.raises(OutputError, match="no regular file"):
         recorder.close("ok", "")
     assert (tmp_path / "x.mcap.part").is_file()
 
@@ -161,3 +161,43 @@ def test_two_recorders_of_one_log(tmp_path: Path) -> None:
     first.abandon()
     McapRecorder(path, head_S=HEAD, metadata={}, attachments={}).close("ok", "")
     assert sorted(file.name for file in tmp_path.iterdir()) == ["x.mcap"]
+
+
+def test_a_log_that_appears_meanwhile_stays(tmp_path: Path) -> None:
+    recorder = open_recorder(tmp_path / "x.mcap")
+    (tmp_path / "x.mcap").write_text("of another")
+    with pytest.raises(OutputError, match="another file has taken its name"):
+        recorder.close("ok", "")
+    assert (tmp_path / "x.mcap").read_text() == "of another"
+    assert (tmp_path / "x.mcap.part").is_file()
+
+
+def test_a_link_is_followed_and_its_part_lies_beside_the_real_file(tmp_path: Path) -> None:
+    (tmp_path / "there").mkdir()
+    (tmp_path / "x.mcap").symlink_to("there/y.mcap")
+    recorder = open_recorder(tmp_path / "x.mcap")
+    assert recorder.part == tmp_path / "there" / "y.mcap.part"
+    assert recorder.part.is_file()
+    recorder.close("ok", "")
+    assert (tmp_path / "x.mcap").is_symlink()
+    assert [path.name for path in (tmp_path / "there").iterdir()] == ["y.mcap"]
+
+
+@pytest.mark.parametrize("what", ["link", "fifo", "folder"])
+def test_a_part_that_is_no_file_is_left_alone(tmp_path: Path, what: str) -> None:
+    part, precious = tmp_path / "x.mcap.part", tmp_path / "precious"
+    precious.write_text("kept")
+    {"link": lambda: part.symlink_to(precious), "fifo": lambda: os.mkfifo(part), "folder": part.mkdir}[what]()
+    with pytest.raises(OutputError, match=r"x.mcap: .*(symbolic link|no regular file|No such device|directory)"):
+        open_recorder(tmp_path / "x.mcap")
+    assert precious.read_text() == "kept"
+
+
+def test_texts_that_utf8_cannot_hold_have_question_marks(tmp_path: Path) -> None:
+    name = os.fsdecode(b"caf\xe9")
+    recorder = open_recorder(tmp_path / "x.mcap")
+    recorder.append(tumble(1, 100.0)[0])
+    recorder.status(0.0, "running", name)
+    recorder.close("ok", name)
+    log = read_log(tmp_path / "x.mcap")
+    assert (log.metadata["reason"], log.statuses[0].reason) == ("caf?", "caf?")
