@@ -21,9 +21,10 @@ from mcap.records import Attachment, Channel, Chunk, Footer, McapRecord, Metadat
 
 from ..errors import LogError
 from .chunk import EncodedChunk
+from .compression import unpack
 from .container import MAGIC, Container
 from .recorder import RUN_METADATA
-from .records import MAX_RECORD, unpack
+from .records import MAX_RECORD
 from .wire import MESSAGE_OPCODE, RECORD_HEAD
 
 MAX_SEARCHED = 256 * 2**20  # bytes that are no record, in which chunks are looked for; 10 GB of them would take a minute

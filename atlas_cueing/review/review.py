@@ -79,4 +79,5 @@ def judge(run: RecordedRun) -> Review:
             found += [*check_orientation(run), *check_actuators(run), *check_sensation(run), *check_honesty(run)]
         figures = metrics(ridden(run.flight, run.log.statuses) if is_live(run) else run.flight)
     found.sort(key=lambda finding: -1.0 if finding.time is None else finding.time)
-    return Review(run, tuple(found), (*notes(run), *punctuality_notes(run)), figures)
+    told = (*run.log.notes, *notes(run), *punctuality_notes(run))
+    return Review(run, tuple(found), told, figures)
