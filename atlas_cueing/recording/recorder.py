@@ -32,7 +32,7 @@ class McapRecorder:
 
     def __init__(
         self,
-        path: Path,
+        path: str | Path,
         *,
         head_S: Vec3,
         metadata: Mapping[str, str],
@@ -61,9 +61,9 @@ class McapRecorder:
         """
         self._file = -1
         _check_options(chunk_ticks, skip_topics)
-        self._path = path
+        self._path = Path(path)
         self._head_S = head_S
-        self._part = path.with_name(path.name + ".part")
+        self._part = self._path.with_name(self._path.name + ".part")
         self._metadata = dict(metadata)
         self._rows = bytearray()
         self._started = started_ns
