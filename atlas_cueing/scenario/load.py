@@ -24,7 +24,7 @@ T = TypeVar("T", bound=Table)
 _CHOICE = ("preset", "file")
 
 
-def load_scenario(path: Path, overrides: Sequence[str] = (), *, trust_models: bool = False) -> Scenario:
+def load_scenario(path: str | Path, overrides: Sequence[str] = (), *, trust_models: bool = False) -> Scenario:
     """Read a scenario file and its platform, with `KEY=VALUE` overrides put on top.
 
     Keys below `platform.` other than `preset` and `file` are those of the platform file, as in
@@ -33,7 +33,7 @@ def load_scenario(path: Path, overrides: Sequence[str] = (), *, trust_models: bo
 
     trust_models: whether a script beside the scenario may be flown; it can be read and cued anew in any case.
     """
-    settings = parse_overrides(overrides)
+    settings, path = parse_overrides(overrides), Path(path)
     return resolve(read_toml(path), settings, path, trust_models=trust_models)
 
 
