@@ -20,9 +20,9 @@ import sys
 from dataclasses import dataclass
 from shlex import quote
 
-PIP = f"{quote(sys.executable)} -m pip"  # of the environment that this program runs in
-
 from .printable import printable
+
+PIP = f"{quote(sys.executable)} -m pip"  # of the environment that this program runs in
 
 
 class AtlasError(Exception):

@@ -74,13 +74,13 @@ class Flown:
     reason: str = ""
 
 
-def run_scenario(scenario: Scenario, log: Path, *, progress: Progress | None = None) -> RunResult:
+def run_scenario(scenario: Scenario, log: str | Path, *, progress: Progress | None = None) -> RunResult:
     """Fly `scenario` and write `log`, which is replaced if it exists.
 
     The log is finished whatever ends the flight. Raises InputError (nothing was written) when the scenario cannot fly or the
     log cannot be opened; an error that nobody expected is raised again after the log is finished.
     """
-    begun = perf_counter()
+    begun, log = perf_counter(), Path(log)
     flown = Flown()
     loaded = _load(scenario, flown)
     vehicle, pipeline = prepare(scenario, loaded) if loaded else (None, None)

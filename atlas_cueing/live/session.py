@@ -86,11 +86,11 @@ class LiveResult:
 class LiveSession:
     """One live run. Followers of `ring`, and whoever presses `buttons`, have to be forked between `__init__` and `run`."""
 
-    def __init__(self, scenario: Scenario, log: Path, options: LiveOptions) -> None:
+    def __init__(self, scenario: Scenario, log: str | Path, options: LiveOptions) -> None:
         """Load everything. Raises InputError (nothing was written) when the scenario cannot fly live or at that rate."""
         if not RATES[0] <= options.rate <= RATES[1]:
             raise InputError(f"--rate {options.rate:g} Hz, allowed: {RATES[0]:g} <= rate <= {RATES[1]:g}")
-        self._scenario, self._log, self._options = scenario, log, options
+        self._scenario, self._log, self._options = scenario, Path(log), options
         self._dt = 1.0 / options.rate
         self._pipeline = build(scenario, self._dt)
         self._source: Source = open_source(scenario)

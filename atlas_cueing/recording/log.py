@@ -9,7 +9,10 @@ import numpy as np
 
 from ..errors import LogError
 from ..signals import TOPICS
+from .pieces import Pieces
 from .wire import Array, Times
+
+_COMPONENTS = ("wxyz", "xyz", "123")  # of a quaternion, a vector, the wheels
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +38,8 @@ class Log:
     """A complete log of one run.
 
     `tables` has one Table a topic of doubles, `metadata` is the record `atlas.run`, `attachments` are files by name,
-    `transforms` what /tf tells: position of the stage and orientation of the cabin.
+    `transforms` what /tf tells: position of the stage and orientation of the cabin, `notes` what in
+    the file was not read or not checked, a line each.
     """
 
     path: Path
@@ -44,6 +48,7 @@ class Log:
     attachments: Mapping[str, bytes]
     statuses: tuple[Status, ...]
     transforms: Table | None = None
+    notes: tuple[str, ...] = ()
 
     @classmethod
     def of_ticks(cls, ticks: Array) -> "Log":
@@ -67,11 +72,15 @@ class Log:
         `q_ws` gives (n, 4); `w` gives (n, 3), in the frame and unit of the topic. Raises LogError if the log does not have it.
         """
         table = self._table(topic)
-        pattern = re.compile(re.escape(name) + r"(_[wxyz]|[xyz123]_\w+)")
-        columns = [i for i, field in enumerate(table.fields) if pattern.fullmatch(field)]
-        if not columns:
+        pattern = re.compile(re.escape(name) + r"(?:_([wxyz])|([xyz123])_\w+)")
+        found = {m[1] or m[2]: i for i, field in enumerate(table.fields) if (m := pattern.fullmatch(field))}
+        components = next((c for c in _COMPONENTS if found.keys() == set(c)), "")
+        if not components:
             raise LogError(f"{self.path}: {topic} has no vector {name!r}; fields: {', '.join(table.fields)}")
-        return table.values[:, columns[0] : columns[-1] + 1]
+        columns = [found[component] for component in components]
+        start, end = columns[0], columns[-1] + 1
+        # as a part of the table where they lie side by side, as in all logs of ours
+        return table.values[:, slice(start, end) if columns == list(range(start, end)) else columns]
 
     def _table(self, topic: str) -> Table:
         if topic not in self.tables:
@@ -84,15 +93,16 @@ class Growing:
 
     def __init__(self, fields: tuple[str, ...]) -> None:
         """A table of no messages yet."""
-        self._fields, self._values, self._times = fields, bytearray(), bytearray()
+        self.fields, self.pieces = fields, Pieces()
+        self._values = bytearray()
 
-    def add(self, values: Array, times: Times) -> None:
+    def add(self, values: Array, times: Times, *, loose: bool = False) -> None:
         """Values (n, fields) and log times (n,) that follow."""
         self._values += np.ascontiguousarray(values).data.cast("B")
-        self._times += np.ascontiguousarray(times).data.cast("B")
+        self.pieces.add(times, loose=loose)
 
     def table(self) -> Table:
-        """What was added, to be read only."""
-        values, times = np.frombuffer(self._values).reshape(-1, len(self._fields)), np.frombuffer(self._times, np.uint64)
+        """What was added, in the order of the file, to be read only."""
+        values, times = np.frombuffer(self._values).reshape(-1, len(self.fields)), self.pieces.times()
         values.flags.writeable = times.flags.writeable = False
-        return Table(self._fields, values, times)
+        return Table(self.fields, values, times)

@@ -1,5 +1,6 @@
 """Where the messages of a chunk are."""
 
+from collections.abc import Callable
 from struct import Struct
 from typing import TypeAlias
 
@@ -16,13 +17,15 @@ BOUNDARY = Struct("<BQH")  # opcode, length, channel
 _DTYPE = np.dtype([("opcode", "u1"), ("length", "<u8"), ("channel", "<u2")])
 
 
-def message_starts(data: bytes, index: Starts) -> Starts:
+def message_starts(data: bytes, index: Starts, others: Callable[[int, bytes], None] | None = None) -> Starts:
     """Offset of every message in a chunk, by channel. Raises LogError where a record is cut.
 
     index: what the log says. It is believed only if the records it names fill the chunk without a gap; otherwise, also for
     other people's chunks with records that are no messages, one record is found after the other, which takes 20 times as long.
+    others: is given opcode and body of each record that is no message, in order; most writers put
+    the descriptions of channels into chunks.
     """
-    return index if _fills(data, index) else _one_after_the_other(data)
+    return index if _fills(data, index) else _one_after_the_other(data, others)
 
 
 def windows(data: bytes, dtype: np.dtype[np.void]) -> NDArray[np.void]:
@@ -58,7 +61,7 @@ def _fills(data: bytes, index: Starts) -> bool:
     return bool(np.all(boundary[ends]))
 
 
-def _one_after_the_other(data: bytes) -> Starts:
+def _one_after_the_other(data: bytes, others: Callable[[int, bytes], None] | None = None) -> Starts:
     starts: dict[int, list[int]] = {}
     position, end = 0, len(data)
     while position < end:
@@ -69,6 +72,8 @@ def _one_after_the_other(data: bytes) -> Starts:
             raise LogError(f"a message in a chunk has {length} bytes, allowed: at least {MESSAGE_HEAD}")
         if opcode == MESSAGE_OPCODE:
             starts.setdefault(channel, []).append(position)
+        elif others and position + RECORD_HEAD + length <= end:
+            others(opcode, data[position + RECORD_HEAD : position + RECORD_HEAD + length])
         position += RECORD_HEAD + length
     if position != end:
         raise LogError("the last message of a chunk is cut")

@@ -40,7 +40,7 @@ class McapRecorder:
 
     def __init__(
         self,
-        path: Path,
+        path: str | Path,
         *,
         head_S: Vec3,
         metadata: Mapping[str, str],
@@ -69,7 +69,7 @@ class McapRecorder:
         """
         self._file = -1
         _check_options(chunk_ticks, skip_topics)
-        self._path = path
+        self._path = Path(path)
         self._head_S = head_S
         self._metadata = dict(metadata)
         self._rows = bytearray()
@@ -83,7 +83,7 @@ class McapRecorder:
         self._latest_log_time = started_ns or EPOCH_NS
         self._failure = ""
         try:
-            self._destination = Destination(path)
+            self._destination = Destination(self._path)
             self._open()
             self._start(attachments, skip_topics)
         except OSError as error:

@@ -11,17 +11,27 @@ from struct import Struct
 from typing import BinaryIO
 
 import numpy as np
-import zstandard
 from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
-from mcap.records import Attachment, Channel, Chunk, DataEnd, Footer, McapRecord, Metadata, Schema
+from mcap.records import (
+    Attachment,
+    Channel,
+    Chunk,
+    DataEnd,
+    Footer,
+    Header,
+    McapRecord,
+    Metadata,
+    Schema,
+    Statistics,
+)
 from numpy.typing import NDArray
 
 from ..errors import LogError
+from .compression import check_crc
 from .container import MAGIC
 
 MAX_RECORD = 64 * 2**20  # bytes; ours are below 1 MB, an attachment may be larger
-MAX_CHUNK = 64 * 2**20  # bytes unpacked; 33 kB can unpack to 1 GiB
 _head = Struct("<BQ")
 _index_head = Struct("<HI")  # channel, bytes of the entries that follow
 _ENTRY = np.dtype([("log_time", "<u8"), ("offset", "<u8")])
@@ -31,8 +41,10 @@ _READ = {
     Opcode.CHUNK: Chunk.read,
     Opcode.DATA_END: DataEnd.read,
     Opcode.FOOTER: Footer.read,
+    Opcode.HEADER: Header.read,
     Opcode.METADATA: Metadata.read,
     Opcode.SCHEMA: Schema.read,
+    Opcode.STATISTICS: Statistics.read,
 }
 
 
@@ -44,15 +56,28 @@ class MessageOffsets:
     offsets: NDArray[np.uint64]
 
 
+@dataclass(frozen=True, slots=True)
+class LooseMessage:
+    """A message record, whole, that lies outside of chunks."""
+
+    record: bytes
+
+
 @dataclass(slots=True)
 class RecordReader:
     """Reads the records of `stream`; the data section ends with a DataEnd, the file with a Footer."""
 
     stream: BinaryIO
     _crc: int = field(default=0, init=False)
+    _position: int = field(default=0, init=False)
+    _data_end: int = field(default=0, init=False)
 
-    def records(self) -> Iterator[McapRecord | MessageOffsets]:
-        """All records but the summary's indexes and statistics. Raises LogError where the file is cut or a checksum wrong."""
+    def records(self) -> Iterator[McapRecord | MessageOffsets | LooseMessage]:
+        """Yield all records but the summary's indexes.
+
+        A checksum of 0 is none, as the format has it. Raises LogError where the file is cut, a
+        checksum wrong, or the summary not where the footer has it.
+        """
         if self._take(len(MAGIC)) != MAGIC:
             raise LogError("this is no MCAP file")
         while True:
@@ -65,26 +90,35 @@ class RecordReader:
                 raise LogError(f"a record claims {length} bytes, allowed: at most {MAX_RECORD}")
             body = self._take(length)
             if opcode == Opcode.ATTACHMENT:  # mcap does not look at it
-                _check("attachment", int.from_bytes(body[-4:], "little"), zlib.crc32(body[:-4]))
+                check_crc("attachment", int.from_bytes(body[-4:], "little"), zlib.crc32(body[:-4]))
             if opcode == Opcode.MESSAGE_INDEX:
                 yield _offsets(body)
+            elif opcode == Opcode.MESSAGE:
+                yield LooseMessage(head + body)
             elif opcode in _READ:
                 record = _READ[opcode](ReadDataStream(BytesIO(body)))
                 yield record
                 if isinstance(record, DataEnd):
-                    _check("data section", record.data_section_crc, before)
-                    self._crc = 0
+                    check_crc("data section", record.data_section_crc, before)
+                    self._crc, self._data_end = 0, self._position
                 if isinstance(record, Footer):
-                    _check("summary", record.summary_crc, zlib.crc32(body[:-4], zlib.crc32(head, before)))
+                    check_crc("summary", record.summary_crc, zlib.crc32(body[:-4], zlib.crc32(head, before)))
+                    self._check_summary(record.summary_start)
                     break
         if self.stream.read(len(MAGIC) + 1) != MAGIC:
             raise LogError("the file does not end after its footer")
+
+    def _check_summary(self, start: int) -> None:
+        """The summary follows the data; 0 means that there is none."""
+        if start not in (0, self._data_end):
+            raise LogError(f"the footer has the summary at byte {start}; it is at {self._data_end}")
 
     def _take(self, size: int) -> bytes:
         data = self.stream.read(size)
         if len(data) < size:
             raise LogError("the file is cut")
         self._crc = zlib.crc32(data, self._crc)
+        self._position += size
         return data
 
 
@@ -94,26 +128,3 @@ def _offsets(body: bytes) -> MessageOffsets:
     if size != len(body) - _index_head.size:
         raise LogError("an index claims another size than it has")
     return MessageOffsets(channel, np.frombuffer(body, _ENTRY, offset=_index_head.size)["offset"])
-
-
-def unpack(chunk: Chunk) -> bytes:
-    """The messages of a chunk. Raises LogError if they are damaged, too large or packed in another way than ours."""
-    if chunk.compression != "zstd":
-        raise LogError(f"a chunk has compression {chunk.compression!r}, allowed: 'zstd'")
-    if chunk.uncompressed_size > MAX_CHUNK:
-        raise LogError(f"a chunk unpacks to {chunk.uncompressed_size} bytes, allowed: at most {MAX_CHUNK}")
-    try:
-        claimed = zstandard.frame_content_size(chunk.data)
-        # the decompressor believes the size in the frame, whatever it is told
-        data = zstandard.ZstdDecompressor().decompress(chunk.data) if claimed == chunk.uncompressed_size else b""
-    except zstandard.ZstdError as error:
-        raise LogError(f"a chunk cannot be unpacked: {error}") from error
-    if len(data) != chunk.uncompressed_size:
-        raise LogError(f"a chunk unpacks to another size than the {chunk.uncompressed_size} bytes it claims")
-    _check("chunk", chunk.uncompressed_crc, zlib.crc32(data))
-    return data
-
-
-def _check(what: str, expected: int, found: int) -> None:
-    if expected != found:
-        raise LogError(f"the checksum of the {what} is wrong ({found:#010x} instead of {expected:#010x})")

@@ -1,219 +1,179 @@
-"""Everything that is whole in a cut or damaged log, and a new log of it.
-
-Records follow one another by their lengths. Where that chain breaks, the next chunk is found by the words every chunk of ours
-holds, and its checksum says whether it is one.
-"""
+"""Everything that is whole in a cut or damaged log, and a new log of it."""
 
 import mmap
 import struct
-import zlib
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
-from io import BytesIO
+from collections.abc import Iterator, Mapping
+from itertools import pairwise
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import BinaryIO
 
 import numpy as np
-from mcap.data_stream import ReadDataStream
-from mcap.exceptions import McapError
-from mcap.opcode import Opcode
-from mcap.records import Attachment, Channel, Chunk, Footer, McapRecord, Metadata, Schema
+from mcap.records import Channel, Chunk
 
 from ..errors import LogError
+from ..signals import TOPICS
+from .builder import LogBuilder
 from .chunk import EncodedChunk
-from .container import MAGIC, Container
+from .compression import unpack
+from .container import LIBRARY, Container
+from .log import Log
+from .log_writer import write_log
+from .record_walk import check_data, walk
 from .recorder import RUN_METADATA
-from .records import MAX_RECORD, unpack
+from .salvaged import BROKEN, Salvage, TooLargeError, stream
 from .whole_file import Destination
 from .wire import MESSAGE_OPCODE, RECORD_HEAD
 
 MAX_SEARCHED = 256 * 2**20  # bytes that are no record, in which chunks are looked for; 10 GB of them would take a minute
-_COMPRESSION = b"\x04\x00\x00\x00zstd"  # a length and a word, 37 bytes into every chunk of ours
-_INTO_CHUNK = RECORD_HEAD + 28
-_head = struct.Struct("<BQ")
+_ANY = 1 << 62  # bytes
 _message = struct.Struct("<BQHIQ")  # opcode, length, channel, sequence, log time
-_MESSAGE_HEAD = _message.size
-_READ: dict[int, Callable[[ReadDataStream], McapRecord]] = {
-    Opcode.ATTACHMENT: Attachment.read,
-    Opcode.CHANNEL: Channel.read,
-    Opcode.CHUNK: Chunk.read,
-    Opcode.FOOTER: Footer.read,
-    Opcode.METADATA: Metadata.read,
-    Opcode.SCHEMA: Schema.read,
-}
-_PLAIN = {*_READ, Opcode.HEADER, Opcode.MESSAGE_INDEX, Opcode.CHUNK_INDEX, Opcode.ATTACHMENT_INDEX, Opcode.STATISTICS}
-_KNOWN = {*_PLAIN, Opcode.METADATA_INDEX, Opcode.SUMMARY_OFFSET, Opcode.DATA_END}
 
 
-class TooLargeError(LogError):
-    """A file whose chunks together unpack to more than they may."""
-
-
-@dataclass(slots=True)
-class Salvage:
-    """What is whole in a log: `chunks` are places in the file, in order; `complete` says that nothing was found amiss."""
-
-    path: Path
-    bytes_left: int  # that chunks may still unpack to
-    complete: bool = True
-    chunks: list[tuple[int, int]] = field(default_factory=list)
-    damaged: int = 0
-    metadata: dict[str, str] = field(default_factory=dict)
-    attachments: dict[str, bytes] = field(default_factory=dict)
-    schemas: dict[int, Schema] = field(default_factory=dict)
-    channels: dict[int, Channel] = field(default_factory=dict)
-    finished: bool = False
-
-    def take(self, record: McapRecord, start: int, end: int) -> None:
-        """Keep one record that lies at start to end in the file; a chunk is unpacked to see that it is whole."""
-        match record:
-            case Schema():
-                self.schemas.setdefault(record.id, record)
-            case Channel():
-                self.channels.setdefault(record.id, record)
-            case Attachment():
-                self.attachments.setdefault(record.name, record.data)
-            case Metadata() if record.name == RUN_METADATA:
-                self.metadata = record.metadata
-            case Footer():
-                self.finished = True
-            case Chunk():
-                self.bytes_left -= record.uncompressed_size
-                if self.bytes_left < 0:
-                    raise TooLargeError("its chunks unpack to more than is allowed")
-                unpack(record)
-                self.chunks.append((start, end))
-
-
-def salvage(path: Path, max_bytes: int) -> Salvage:
+def salvage(path: str | Path, max_bytes: int) -> Salvage:
     """Find everything whole in `path`, whose chunks may unpack to `max_bytes` together.
 
     Raises LogError when it cannot be read or holds no complete chunk of ours.
     """
+    path = Path(path)
     found = Salvage(path, max_bytes)
     try:
         with path.open("rb") as file:
             if file.seek(0, 2):
                 with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
-                    _walk(data, found)
+                    walk(data, found, MAX_SEARCHED)
+                    check_data(data, found)
     except OSError as error:
         raise LogError(f"{path}: cannot be read: {error.strerror}") from error
     except TooLargeError as error:
         raise LogError(f"{path}: {error}") from error
-    if not found.chunks:
-        raise LogError(f"{path}: there is nothing to recover: no complete chunk of a log of atlas_cueing")
+    if not found.chunks and not found.loose:
+        told = f" ({found.objections[0]})" if found.objections else ""
+        raise LogError(f"{path}: there is nothing to recover: no complete chunk of a log of atlas_cueing{told}")
     found.complete = found.complete and found.finished
     return found
 
 
-def rewrite(found: Salvage, output: Path, metadata: Mapping[str, str]) -> None:
+def contents(found: Salvage) -> Log:
+    """Everything that was found, read into memory; pieces that cannot be read are counted in `found`.
+
+    Raises LogError when the description of a channel of ours is lost, or nothing that was found is ours.
+    """
+    undescribed = sorted(found.used - found.channels.keys())
+    described = {channel.topic for channel in found.channels.values()}
+    if undescribed and not all(topic.name in described for topic in TOPICS):
+        raise LogError(f"{found.path}: the description of channel {undescribed[0]} is lost, so its messages cannot be read")
+    loose = set(found.loose)
+    try:
+        builder = _builder(found)
+        with found.path.open("rb") as source:
+            for start, end in sorted(found.chunks + found.loose):
+                source.seek(start)
+                _add_piece(builder, source.read(end - start), found, loose=(start, end) in loose)
+        return builder.log()
+    except BROKEN as error:
+        raise LogError(f"{found.path}: {error}") from error
+
+
+def rewrite(found: Salvage, output: Path, metadata: Mapping[str, str], log: Log | None = None) -> None:
     """Write a finished log of all that was found to `output`, under a passing name until it is complete.
 
-    Raises LogError when the descriptions of the channels are lost, and OSError when it cannot be written.
+    log: the contents of `found`, when they have been read. Chunks of ours are copied, with all channels; what lies in any
+    other way is written anew as this program does, without the channels that it cannot read.
+    Raises LogError as `contents`, and OSError when it cannot be written.
     """
+    log = log or contents(found)
     destination = Destination(output)
     part = destination.passing()  # the .part may be the very log that is recovered
     try:
         with part.open("xb") as target, found.path.open("rb") as source:
-            _write(found, source, Container(target.write), metadata)
+            container = Container(target.write)
+            if copied(found):
+                _copy(found, source, container, metadata)
+            else:
+                write_log(container, log, metadata)
         destination.take(part)
     except OSError:
         part.unlink(missing_ok=True)  # half of it is of no use: the broken log is still there
         raise
 
 
-def _write(found: Salvage, source: BinaryIO, container: Container, metadata: Mapping[str, str]) -> None:
-    for number in range(1, max(found.channels, default=0) + 1):
-        _add_channel(container, found, number)
+def copied(found: Salvage) -> bool:
+    """Whether the chunks are copied as they are: all of it lies as this program writes it, and can be read."""
+    topics = [channel.topic for channel in found.channels.values()]
+    return (
+        found.ours
+        and sorted(found.channels) == list(range(1, len(topics) + 1))
+        and len(set(topics)) == len(topics)
+        and all(_is_protobuf(found, channel) for channel in found.channels.values())
+    )
+
+
+def _copy(found: Salvage, source: BinaryIO, container: Container, metadata: Mapping[str, str]) -> None:
+    for _, channel in sorted(found.channels.items()):
+        schema = found.schemas[channel.schema_id]
+        container.add_channel(channel.topic, schema.name, schema.data)
     for name, content in found.attachments.items():
         container.add_attachment(name, "application/toml", content)
     for start, end in found.chunks:
         source.seek(start)
-        chunk = _encoded(unpack(Chunk.read(_stream(source.read(end - start)))), found)
+        chunk = _encoded(unpack(Chunk.read(stream(source.read(end - start)))))
         if chunk.index:  # whole, but without any message
             container.add_chunk(chunk)
     container.add_metadata(RUN_METADATA, metadata)
     container.finish()
 
 
-def _walk(data: mmap.mmap, found: Salvage) -> None:
-    """Take every whole record of the file, looking for the next chunk wherever the chain of records breaks."""
-    position, searched = len(MAGIC), 0
-    while position < len(data) - len(MAGIC):
-        end = _take(data, position, found)
-        if end is None:
-            found.complete = False
-            end = _next_chunk(data, position + 1, position + MAX_SEARCHED - searched)
-            searched += end - position
-        position = end
-
-
-def _take(data: mmap.mmap, start: int, found: Salvage) -> int | None:
-    """Take the record at `start`; where it ends, or None when it is none."""
-    if start + RECORD_HEAD > len(data):
-        return None
-    opcode, length = _head.unpack_from(data, start)
-    end: int = start + RECORD_HEAD + length
-    if opcode not in _KNOWN or length > MAX_RECORD or end > len(data):
-        return None
-    try:
-        if opcode in _READ:
-            body = data[start + RECORD_HEAD : end]
-            if opcode == Opcode.ATTACHMENT and body[-4:] != zlib.crc32(body[:-4]).to_bytes(4, "little"):
-                raise LogError("the checksum of an attachment is wrong")  # mcap does not look at it
-            found.take(_READ[opcode](_stream(body)), start + RECORD_HEAD, end)
-    except TooLargeError:
-        raise
-    except (LogError, McapError, struct.error, ValueError, KeyError, TypeError, OverflowError, EOFError):
-        found.damaged += opcode == Opcode.CHUNK
-        found.complete = False
-        return end if _follows(data, end) else None
-    return end
-
-
-def _follows(data: mmap.mmap, position: int) -> bool:
-    """Whether a record seems to start there."""
-    return position + RECORD_HEAD <= len(data) and data[position] in _KNOWN
-
-
-def _next_chunk(data: mmap.mmap, position: int, last: int) -> int:
-    """Start of the next thing that looks like a chunk, up to `last`; the end of the file when there is none."""
-    while (place := data.find(_COMPRESSION, position + _INTO_CHUNK, max(last, position) + _INTO_CHUNK)) >= 0:
-        start = place - _INTO_CHUNK
-        if data[start] == Opcode.CHUNK:
-            return start
-        position = start + 1
-    return len(data)
-
-
-def _add_channel(container: Container, found: Salvage, number: int) -> None:
-    channel = found.channels.get(number)
-    schema = found.schemas.get(channel.schema_id) if channel else None
-    if channel is None or schema is None:
-        raise LogError(f"{found.path}: the description of channel {number} is lost, so its messages cannot be read")
-    container.add_channel(channel.topic, schema.name, schema.data)
-
-
-def _encoded(data: bytes, found: Salvage) -> EncodedChunk:
+def _encoded(data: bytes) -> EncodedChunk:
     """The chunk with the index of its messages made again."""
     index: dict[int, list[tuple[int, int]]] = {}
     for start, channel, log_time in _messages(data):
-        if channel not in found.channels:
-            raise LogError(f"{found.path}: the description of channel {channel} is lost, so its messages cannot be read")
         index.setdefault(channel, []).append((log_time, start))
     return EncodedChunk(data, {channel: np.array(entries, dtype=np.uint64) for channel, entries in sorted(index.items())})
+
+
+def _is_protobuf(found: Salvage, channel: Channel) -> bool:
+    schema = found.schemas.get(channel.schema_id)
+    return schema is not None and (channel.message_encoding, schema.encoding) == ("protobuf", "protobuf")
+
+
+def _builder(found: Salvage) -> LogBuilder:
+    """With all descriptions and files that were found."""
+    builder = LogBuilder(found.path, _ANY)  # what chunks unpack to has been counted
+    for schema in found.schemas.values():
+        builder.add_schema(schema)
+    for channel in found.channels.values():
+        builder.add_channel(channel)
+    for number in found.used - found.channels.keys():
+        topic = f"channel {number}, whose description is lost"
+        builder.add_channel(Channel(id=number, topic=topic, message_encoding="", metadata={}, schema_id=0))
+    for name, content in found.attachments.items():
+        builder.add_attachment(name, content)
+    if found.metadata:
+        builder.add_metadata(RUN_METADATA, found.metadata)
+    builder.library = LIBRARY if found.ours else ""
+    return builder
+
+
+def _add_piece(builder: LogBuilder, data: bytes, found: Salvage, *, loose: bool) -> None:
+    """Read the messages of a chunk or stretch; those of a stretch one by one, when they cannot be read at once."""
+    content = data if loose else unpack(Chunk.read(stream(data)))
+    starts = [start for start, _, _ in _messages(content)] if loose else []
+    try:
+        builder.add_messages(content, {}, loose=loose, checked=True)  # or it is said in other words
+    except BROKEN as error:
+        if len(starts) > 1:
+            for start, end in pairwise([*starts, len(content)]):
+                _add_piece(builder, content[start:end], found, loose=True)
+        else:
+            found.object(error)
+            found.ours = False  # or the new log could not be read either
 
 
 def _messages(data: bytes) -> Iterator[tuple[int, int, int]]:
     """Place, channel and log time (ns) of each message of a chunk."""
     position = 0
-    while position + _MESSAGE_HEAD <= len(data):
+    while position + _message.size <= len(data):
         opcode, length, channel, _, log_time = _message.unpack_from(data, position)
         if opcode == MESSAGE_OPCODE:
             yield position, channel, log_time
         position += RECORD_HEAD + length
-
-
-def _stream(data: bytes) -> Any:
-    """As mcap reads records from; it has no types."""
-    return ReadDataStream(BytesIO(data))

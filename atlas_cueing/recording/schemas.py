@@ -9,12 +9,14 @@ from typing import Any
 from google.protobuf import descriptor_pool, message_factory, timestamp_pb2
 from google.protobuf.descriptor_pb2 import FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet
 
+from ..errors import LogError
 from ..signals import LIVE_TOPICS, Topic
 
 STATUS = "/status"
 TF = "/tf"
 STATUS_SCHEMA = "atlas.Status"
 TF_SCHEMA = "foxglove.FrameTransforms"
+MAX_FILES = 200  # that a schema may import; they are added one inside the other
 _STAMP = "google/protobuf/timestamp.proto"
 
 
@@ -59,23 +61,57 @@ def schema_of(topic: str) -> tuple[str, bytes]:
 def message_class(name: str, schema: bytes) -> Any:
     """The message type `name` of a serialised FileDescriptorSet; Any, because its fields are known at run time only."""
     pool = descriptor_pool.DescriptorPool()
-    for file in FileDescriptorSet.FromString(schema).file:
-        pool.Add(file)
+    files = {file.name: file for file in FileDescriptorSet.FromString(schema).file}
+    if len(files) > MAX_FILES:
+        raise LogError(f"the schema {name!r} has {len(files)} files, allowed: at most {MAX_FILES}")
+    while files:
+        _add_file(pool, next(iter(files)), files)
     return message_factory.GetMessageClass(pool.FindMessageTypeByName(name))
+
+
+def _add_file(pool: descriptor_pool.DescriptorPool, name: str, files: dict[str, FileDescriptorProto]) -> None:
+    """Move a file into the pool, after those it imports, which other writers may put behind it."""
+    file = files.pop(name)
+    for imported in file.dependency:
+        if imported in files:
+            _add_file(pool, imported, files)
+    pool.Add(file)
 
 
 def flat_fields(name: str, schema: bytes) -> tuple[str, ...] | None:
     """Field names of the message `name` if it is flat doubles numbered from 1 (the layout of `wire`), else None."""
+    fields = _fields_of(name, schema)
+    flat = all(f.number == i and _is_double(f) for i, f in enumerate(fields, 1))
+    return tuple(f.name for f in fields) if flat and fields else None
+
+
+def number_fields(name: str, schema: bytes) -> tuple[str, ...]:
+    """Names of the fields of the message `name` that hold one number each, of any type."""
+    return tuple(field.name for field in _fields_of(name, schema) if _is_number(field))
+
+
+def _fields_of(name: str, schema: bytes) -> list[FieldDescriptorProto]:
     for file in FileDescriptorSet.FromString(schema).file:
         for message in file.message_type:
-            if f"{file.package}.{message.name}" == name:
-                flat = all(f.number == i and _is_double(f) for i, f in enumerate(message.field, 1))
-                return tuple(f.name for f in message.field) if flat and message.field else None
-    return None
+            if f"{file.package}.{message.name}".lstrip(".") == name:
+                return list(message.field)
+    return []
 
 
 def _is_double(field: FieldDescriptorProto) -> bool:
     return field.type == FieldDescriptorProto.TYPE_DOUBLE and field.label == FieldDescriptorProto.LABEL_OPTIONAL
+
+
+_NO_NUMBERS = (
+    FieldDescriptorProto.TYPE_STRING,
+    FieldDescriptorProto.TYPE_BYTES,
+    FieldDescriptorProto.TYPE_MESSAGE,
+    FieldDescriptorProto.TYPE_GROUP,
+)
+
+
+def _is_number(field: FieldDescriptorProto) -> bool:
+    return field.type not in _NO_NUMBERS and field.label != FieldDescriptorProto.LABEL_REPEATED
 
 
 def _file(name: str, fields: list[tuple[str, str]], imports: list[str] | None = None) -> FileDescriptorProto:

@@ -5,13 +5,17 @@ varints of the time stamp are padded to five bytes, which every decoder reads as
 one length.
 """
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import LogError
 from .wire import HEAD, Array, Records, Times, record_template, repeat
 
 POSE = ("px_m", "py_m", "pz_m", "q_ws_w", "q_ws_x", "q_ws_y", "q_ws_z")  # what a message tells, as in /motion
 RATE_HZ = 60.0  # what viewers draw; more would only fill the log
+_NO_TURN = (1.0, 0.0, 0.0, 0.0)
 _VARINT = 5  # bytes; holds seconds below 2^35 and nanoseconds below 2^30
 _DOUBLE = [("tag", "u1"), ("value", "<f8")]
 
@@ -49,6 +53,28 @@ def take_transforms(records: Records) -> Array | None:
         return None
     turn = records["cabin"]["rotation"]["value"]
     return np.hstack([records["stage"]["translation"]["value"], turn[:, [3, 0, 1, 2]]])
+
+
+def pose_of(message: Any) -> tuple[float, ...] | None:
+    """POSE of a decoded foxglove.FrameTransforms; None when it tells of other frames only.
+
+    Raises LogError when the stage turns or the cabin moves in it, which ours do not.
+    """
+    found = {(each.parent_frame_id, each.child_frame_id): each for each in message.transforms}
+    stage, cabin = found.get(("base", "stage")), found.get(("stage", "cabin"))
+    if stage is None and cabin is None:
+        return None
+    if stage is None or cabin is None or _turn(stage) != _NO_TURN or any(_move(cabin)):
+        raise LogError("a message of /tf is not base -> stage -> cabin as this program writes it")
+    return (*_move(stage), *_turn(cabin))
+
+
+def _move(transform: Any) -> tuple[float, ...]:
+    return tuple(getattr(transform.translation, c) for c in "xyz")
+
+
+def _turn(transform: Any) -> tuple[float, ...]:
+    return tuple(getattr(transform.rotation, c) for c in "wxyz")
 
 
 def _dtype(parent: str, child: str) -> np.dtype[np.void]:

@@ -50,13 +50,13 @@ def real_file(file: Path) -> Path:
     raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
 
 
-def write_whole(file: Path, content: str | bytes) -> None:
+def write_whole(file: str | Path, content: str | bytes) -> None:
     """Write a text as UTF-8, or bytes, into `file`, under a passing name until it is complete.
 
     A character that UTF-8 has no bytes for, as in some names of files, becomes a question mark.
     Raises OSError, leaves what was there, and nothing new.
     """
-    destination = Destination(file)
+    destination = Destination(Path(file))
     part = destination.passing()
     try:
         with part.open("xb") as new:
@@ -66,7 +66,7 @@ def write_whole(file: Path, content: str | bytes) -> None:
         part.unlink(missing_ok=True)
 
 
-def write_page(file: Path, html: str) -> None:
+def write_page(file: str | Path, html: str) -> None:
     """Write a whole page, with what tells later that it is one of ours. Raises as `write_whole`."""
     write_whole(file, as_page(html))
 

@@ -4,6 +4,7 @@ import numpy as np
 
 from .finding import Finding, exceeding
 from .recorded_run import TOPICS, RecordedRun
+from .rounding import rounding
 
 UNEVEN = 1e-3  # of a step; times are step counts times dt, exact to 1e-12 of a step for an hour
 GAP = 1.5  # steps; from here on a tick is missing
@@ -19,7 +20,8 @@ def check_clock(run: RecordedRun) -> list[Finding]:
     found = []
     for topic in TOPICS:
         place, off = [f"{topic} time_s"], times[topic] - time
-        found += exceeding("time differs from /motion", place, time, off, 0.0, "s", quantity="difference")
+        allowed = (rounding(time) + rounding(times[topic]))[:, None]
+        found += exceeding("time differs from /motion", place, time, off, allowed, "s", quantity="difference")
     steps = np.diff(time)
     if len(steps):
         back = steps <= 0.0

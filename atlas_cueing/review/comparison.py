@@ -36,7 +36,7 @@ class Comparison:
         }
 
 
-def compare(paths: Sequence[Path], *, different_flights: bool = False) -> Comparison:
+def compare(paths: Sequence[str | Path], *, different_flights: bool = False) -> Comparison:
     """Review every log and put the figures side by side.
 
     Raises InputError for fewer than two logs, or when the vehicle did not fly the same in all and `different_flights` is not

@@ -18,7 +18,10 @@ def check_course(run: RecordedRun) -> list[Finding]:
     metadata = run.log.metadata
     result, reason = metadata.get("result", ""), metadata.get("reason", "")
     found = []
-    if result != "ok":
+    if not metadata:
+        text = "the log has no such record: how the run ended, and with what, is unknown"
+        found.append(Finding("result", "atlas.run", None, text))
+    elif result != "ok":
         found.append(
             Finding("result", "atlas.run", None, f"result = {result!r}, allowed: 'ok'" + (f"; {reason}" if reason else ""))
         )

@@ -28,7 +28,7 @@ li.finding { color: #c00000; } details { margin: 0.5em 0; }
 """
 
 
-def write_page(found: Review, file: Path) -> None:
+def write_page(found: Review, file: str | Path) -> None:
     """Write the review with plots of everything into `file`.
 
     Raises MissingExtraError without plotly and OutputError when the file cannot be written; an old one is kept then.
@@ -52,7 +52,7 @@ def write_page(found: Review, file: Path) -> None:
     _write(file, run.log.metadata.get("scenario", "") or run.log.path.name, sections)
 
 
-def write_comparison(comparison: Comparison, file: Path) -> None:
+def write_comparison(comparison: Comparison, file: str | Path) -> None:
     """Write the runs side by side into `file`. Raises as `write_page`."""
     plots = _plots()
     runs = [each.run for each in comparison.reviews]
@@ -141,7 +141,7 @@ def _columns(heads: Sequence[str], names: Sequence[str], columns: Sequence[dict[
     return f"<table>{''.join(rows)}</table>"
 
 
-def _write(file: Path, title: str, sections: "Sequence[tuple[str, str | Plot]]") -> None:
+def _write(file: str | Path, title: str, sections: "Sequence[tuple[str, str | Plot]]") -> None:
     from plotly.offline import get_plotlyjs
 
     pieces = [

@@ -47,7 +47,7 @@ class RecordedRun:
         return inverse
 
 
-def open_run(path: Path) -> RecordedRun:
+def open_run(path: str | Path) -> RecordedRun:
     """Read a log with its platform.
 
     Raises InputError when there is no such file and LogError when it is damaged, not a log of ours, or lacks a topic or the
@@ -58,8 +58,9 @@ def open_run(path: Path) -> RecordedRun:
     return RecordedRun(log, platform_of(log), flight)
 
 
-def open_log(path: Path) -> Log:
+def open_log(path: str | Path) -> Log:
     """Read a log. Raises InputError when there is no such file or a scenario, and LogError when it is damaged or not ours."""
+    path = Path(path)
     try:
         return read_log(path, largest_content(path))
     except LogError as error:

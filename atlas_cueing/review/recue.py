@@ -18,7 +18,7 @@ from .recorded_run import open_log
 _FLOWN = ("vehicle", "duration_s")  # keys of what has been flown already
 
 
-def recue(path: Path, settings: Sequence[str], output: Path) -> Scenario:
+def recue(path: str | Path, settings: Sequence[str], output: str | Path) -> Scenario:
     """Write `output`, the flight of the log `path` cued anew with `KEY=VALUE` settings on top of the log's own scenario.
 
     Without settings, cue, motion and wheels are the log's own to the last bit. With another method, what the old one had by
@@ -27,6 +27,7 @@ def recue(path: Path, settings: Sequence[str], output: Path) -> Scenario:
     for settings that do not fit, LogError for a log that is damaged or holds no scenario.
     """
     _refuse_flown(settings)
+    output = Path(output)
     log = open_log(path)
     if SCENARIO not in log.attachments:
         raise LogError(f"{path}: the log does not hold {SCENARIO}, so there is nothing to cue it by")

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..evaluation import metrics, ridden
+from ..scenario import evaluate_flight
 from .actuators import check_actuators
 from .clock import check_clock
 from .course import check_course, notes
@@ -13,7 +13,7 @@ from .finding import Finding
 from .honesty import check_honesty
 from .numbers import check_numbers
 from .orientation import check_orientation
-from .punctuality import check_punctuality, is_live, punctuality_notes
+from .punctuality import check_punctuality, punctuality_notes
 from .recorded_run import RecordedRun, open_run
 from .sensation import check_sensation
 from .stamps import check_stamps
@@ -63,7 +63,7 @@ class Review:
         }
 
 
-def review(path: Path) -> Review:
+def review(path: str | Path) -> Review:
     """Read a log and judge it by its own numbers, with arithmetic that shares nothing with what wrote it.
 
     Raises InputError when there is no such file, and LogError when it is damaged, not a log of ours, or has no platform.
@@ -77,6 +77,7 @@ def judge(run: RecordedRun) -> Review:
     with np.errstate(all="ignore"):  # numbers out of range have been found by now
         if not any(finding.check == "ticks lost" for finding in found):
             found += [*check_orientation(run), *check_actuators(run), *check_sensation(run), *check_honesty(run)]
-        figures = metrics(ridden(run.flight, run.log.statuses) if is_live(run) else run.flight)
+        figures = evaluate_flight(run.log, run.flight, run.platform).metrics
     found.sort(key=lambda finding: -1.0 if finding.time is None else finding.time)
-    return Review(run, tuple(found), (*notes(run), *punctuality_notes(run)), figures)
+    told = (*run.log.notes, *notes(run), *punctuality_notes(run))
+    return Review(run, tuple(found), told, figures)

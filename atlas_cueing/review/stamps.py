@@ -5,6 +5,7 @@ import numpy as np
 from ..signals import LIVE_TOPICS, TIMING
 from .finding import Array, Finding, exceeding
 from .recorded_run import RecordedRun
+from .rounding import rounding
 
 ROUNDING = 1.0  # ns; log times are whole ones
 SIMULATED = 946_684_800_000_000_000  # ns; 2000-01-01T00:00:00Z, from where simulated time counts
@@ -31,7 +32,14 @@ def _stamps(run: RecordedRun, topic: str, log_times: np.ndarray) -> list[Finding
     off = (log_times.astype(np.int64) - start).astype(np.float64) - np.rint(since * 1e9)
     what = "elapsed_s" if live else "time_s"
     check = f"log time does not fit {what}"
-    return exceeding(check, [f"{topic} log_time"], time, off, ROUNDING, "ns", quantity="difference")
+    allowed = ROUNDING + (0.0 if live else 1e9 * (rounding(time) + rounding(_seconds(log_times)))[:, None])
+    return exceeding(check, [f"{topic} log_time"], time, off, allowed, "ns", quantity="difference")
+
+
+def _seconds(log_times: np.ndarray) -> Array:
+    """Log times (n,), ns, as seconds since the first of them."""
+    since: Array = (log_times.astype(np.int64) - int(log_times[0])) / 1e9
+    return since
 
 
 def _start(since: Array, log_times: np.ndarray) -> int:

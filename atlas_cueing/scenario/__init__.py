@@ -1,7 +1,7 @@
 """Scenario and platform files: what to fly, on which platform, cued how. The only place that knows TOML."""
 
 from .build import build, prepare
-from .evaluate import Evaluation, Evaluator, evaluate
+from .evaluate import Evaluation, Evaluator, evaluate, evaluate_flight
 from .load import load_platform, load_scenario
 from .platform import Platform, presets
 from .recorded import RecordedFlight, recorded_vehicle
@@ -18,6 +18,7 @@ __all__ = [
     "Variant",
     "build",
     "evaluate",
+    "evaluate_flight",
     "load_platform",
     "load_scenario",
     "load_variants",

@@ -25,16 +25,27 @@ class Evaluation:
     violations: tuple[str, ...] = ()
 
 
-def evaluate(log: Path, platform: Platform) -> Evaluation:
+def evaluate(log: str | Path, platform: Platform) -> Evaluation:
     """Read the log and compute everything; a log that cannot be read back is itself a violation.
 
     Limits are looked at over the whole run, metrics of a live one over its longest stretch in state `running`.
     """
     found = _Found(platform)
     try:
-        found.add_log(read_log(log, _ANY_LENGTH))
+        recorded = read_log(log, _ANY_LENGTH)
+        found.add_log(recorded, Flight.of(recorded))
     except LogError as error:
         return Evaluation(violations=(f"not evaluated: {error}",))
+    return found.evaluation()
+
+
+def evaluate_flight(log: Log, flight: Flight, platform: Platform) -> Evaluation:
+    """Compute everything of a log that has been read: the same figures, to the last bit, as the run gave that wrote it.
+
+    flight: that of the log, with equally many rows everywhere.
+    """
+    found = _Found(platform)
+    found.add_log(log, flight)
     return found.evaluation()
 
 
@@ -86,9 +97,8 @@ class _Found:
             self._metrics.add(block)
             self._check(block)
 
-    def add_log(self, log: Log) -> None:
-        """Take in a whole run."""
-        flight = Flight.of(log)
+    def add_log(self, log: Log, flight: Flight) -> None:
+        """Take in a whole run; a live one has metrics where it was running."""
         if TIMING.name not in log.tables:
             self.add(flight)
             return

@@ -25,7 +25,7 @@ T = TypeVar("T", bound=Table)
 _CHOICE = ("preset", "file")
 
 
-def load_scenario(path: Path, overrides: Sequence[str] = (), *, trust_models: bool = False) -> Scenario:
+def load_scenario(path: str | Path, overrides: Sequence[str] = (), *, trust_models: bool = False) -> Scenario:
     """Read a scenario file and its platform, with `KEY=VALUE` overrides put on top.
 
     Keys below `platform.` other than `preset` and `file` are those of the platform file, as in
@@ -38,7 +38,7 @@ def load_scenario(path: Path, overrides: Sequence[str] = (), *, trust_models: bo
         batch = f"to fly all scenarios in it: atlas-cueing batch {path} -o RESULTS"
         allowed = f"is a folder, not a regular file; {batch}"
         raise ScenarioError([Mistake(str(path), "file", "", allowed)])
-    settings = parse_overrides(overrides)
+    settings, path = parse_overrides(overrides), Path(path)
     return resolve(read_toml(path), settings, path, trust_models=trust_models)
 
 

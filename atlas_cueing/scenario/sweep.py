@@ -73,9 +73,9 @@ class _Counts(Table):
     seed: Annotated[int, whole(0, 2**63 - 1)] = 0
 
 
-def scenario_files(folder: Path) -> list[Path]:
+def scenario_files(folder: str | Path) -> list[Path]:
     """The scenario files of a folder, by name, without platform files among them. Raises ScenarioError if there are none."""
-    files = [path for path in sorted(folder.glob("*.toml")) if not _is_platform(path)]
+    files = [path for path in sorted(Path(folder).glob("*.toml")) if not _is_platform(path)]
     if not files:
         raise ScenarioError([Mistake(str(folder), "folder", "", "no scenario files (*.toml) in it")])
     return files
@@ -89,14 +89,14 @@ def _is_platform(path: Path) -> bool:
     return "sphere" in data and "vehicle" not in data
 
 
-def load_variants(path: Path, overrides: Sequence[str] = (), *, trust_models: bool = False) -> list[Variant]:
+def load_variants(path: str | Path, overrides: Sequence[str] = (), *, trust_models: bool = False) -> list[Variant]:
     """Every run that a scenario file stands for: one, or as many as its sweep has.
 
     `overrides` are as for `load_scenario`; one of a swept key takes the key out of the sweep, and one below `sweep.` changes
     the sweep itself; `trust_models` is as there. Raises ScenarioError with every mistake of the sweep, or else of the runs,
     each once.
     """
-    settings = parse_overrides(overrides)
+    settings, path = parse_overrides(overrides), Path(path)
     of_sweep = {key: value for key, value in settings.items() if key[0] == _SWEEP}
     others = {key: value for key, value in settings.items() if key not in of_sweep}
     data = read_toml(path)

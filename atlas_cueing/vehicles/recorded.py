@@ -2,6 +2,8 @@
 
 from collections.abc import Sequence
 from itertools import pairwise
+from math import ulp
+from statistics import median
 
 from ..errors import InputError
 from ..signals import VehicleState
@@ -11,7 +13,7 @@ class RecordedVehicle:
     """Plays states back one after the other, bit by bit as they were (implements signals.Vehicle).
 
     The step is the time from the first state to the second, which is exactly the step of the vehicle that was recorded when its
-    first time is 0.
+    first time is 0. Where that does not lead to the last state, since times were rounded, it is the mean.
     """
 
     def __init__(self, states: Sequence[VehicleState]) -> None:
@@ -22,7 +24,7 @@ class RecordedVehicle:
             if not now.time > before.time:
                 raise InputError(f"a recorded flight must go on in time: {now.time:.9g} s after {before.time:.9g} s")
         self._states = states
-        self._dt = states[1].time - states[0].time
+        self._dt = _step([state.time for state in states])
         self._now = 0
 
     @property
@@ -41,3 +43,10 @@ class RecordedVehicle:
             return False
         self._now += 1
         return True
+
+
+def _step(times: Sequence[float]) -> float:
+    """The step, s, of which increasing times are multiples but for rounding; gaps count as several."""
+    first, span = times[1] - times[0], times[-1] - times[0]
+    ticks = max(round(span / median(after - before for before, after in pairwise(times))), 1)
+    return first if abs(ticks * first - span) <= ticks * ulp(times[-1]) else span / ticks

@@ -26,7 +26,7 @@ RATE_HZ = 30.0  # frames; film has 24
 MOST_FRAMES = 9000  # of a long flight, which gets fewer a second
 
 
-def write_replay(platform: Platform, flight: Flight, file: Path) -> None:
+def write_replay(platform: Platform, flight: Flight, file: str | Path) -> None:
     """Write the flight as a 3D replay into `file`: sphere with its cockpit, wheels, stage in its travel.
 
     Raises InputError when viser is not installed or there is no motion to show, OutputError when the file cannot be written.
