@@ -3,8 +3,16 @@
 Others are searched for with `pytest --hypothesis-profile search`.
 """
 
+import pytest
 from hypothesis import HealthCheck, settings
 
 settings.register_profile("search", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("steady", settings.get_profile("search"), derandomize=True)
 settings.load_profile("steady")
+
+FIRST = "test_compiled.py"  # takes minutes, and the other processes of `-n` have enough to do meanwhile
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with what takes longest, so that nobody waits for it alone at the end."""
+    items.sort(key=lambda item: item.path.name != FIRST)

@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from time import sleep
 
@@ -15,7 +16,7 @@ from atlas_cueing.batch.folder import FolderResults
 from atlas_cueing.batch.order import Limits, Order
 from atlas_cueing.batch.record import Record
 
-from .sweeping import kept_in, order, planned, sabotage
+from .sweeping import LIMITS, kept_in, order, planned, sabotage
 
 METHODS = ("blend", "attitude")
 
@@ -38,7 +39,7 @@ def told(orders: list[Order]) -> list[Record]:
 def orders(folder: Path, limits: Limits) -> list[Order]:
     """A run that comes to harm under `sabotage`, and one that does not, after it in the same worker."""
     first, second, *_ = planned(folder)
-    return [order(second, folder, limits), order(first, folder, limits)]
+    return [order(second, folder, limits), order(first, folder, replace(limits, time=LIMITS.time))]
 
 
 @pytest.mark.parametrize(

@@ -2,14 +2,17 @@
 
 import json
 import signal
+import socket
 import subprocess
 import sys
+from contextlib import suppress
+from math import inf
 from pathlib import Path
-from time import sleep
 
 import pytest
 from waiting import until
 
+from atlas_cueing.live.setpoint import decode
 from atlas_cueing.recording import read_log
 
 from .conftest import Command
@@ -35,13 +38,31 @@ def folder(tmp_path: Path) -> Path:
 
 
 def started(folder: Path, *arguments: str) -> subprocess.Popen[str]:
-    """The command, once its loop runs: that is when the log has been begun and a state told."""
+    """The command, once its loop runs: handlers of signals come before the log, ticks after it."""
     command = [PROGRAM, "live", "s.toml", "-o", "l.mcap", "--rate", "100", *arguments]
     process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    until(lambda: process.poll() is not None or (folder / "l.mcap.part").exists(), 60.0)
+    part = folder / "l.mcap.part"
+    until(lambda: process.poll() is not None or part.exists(), 60.0)
     assert process.poll() is None, process.communicate()
-    sleep(0.5)  # handlers of signals come before the log, the first tick after it
+    begun = size(part)
+    until(lambda: size(part) > begun)
     return process
+
+
+def size(part: Path) -> float:
+    """Of a log that is being written; a finished one is no .part any more."""
+    with suppress(FileNotFoundError):
+        return part.stat().st_size
+    return inf
+
+
+def states(drives: socket.socket) -> set[str]:
+    """Of the platform, in all set points that have come."""
+    found = set()
+    with suppress(BlockingIOError):
+        while True:
+            found.add(decode(drives.recv(2048)).state)
+    return found
 
 
 def test_help_tells_what_it_is(command: Command) -> None:
@@ -98,12 +119,14 @@ def test_a_signal_parks_and_finishes_the_log(folder: Path, number: signal.Signal
 
 
 def test_a_second_signal_stops_and_the_log_is_whole(folder: Path) -> None:
-    """Engaged after a second and on its way to the cue: parking takes longer than the pause between the two signals."""
-    process = started(folder, "--json")
-    sleep(2.0)
-    process.send_signal(signal.SIGTERM)
-    sleep(0.3)
-    process.send_signal(signal.SIGTERM)
+    """The second comes when the first has begun to park the platform, which takes a while."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as drives:
+        drives.bind(("127.0.0.1", 0))
+        drives.setblocking(False)
+        process = started(folder, "--json", "--setpoints", f"127.0.0.1:{drives.getsockname()[1]}")
+        for state in ("running", "parking"):
+            until(lambda awaited=state: process.poll() is not None or awaited in states(drives), 60.0)
+            process.send_signal(signal.SIGTERM)
     out, err = process.communicate(timeout=60.0)
     assert "Traceback" not in err
     result = json.loads(out)

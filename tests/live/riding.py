@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from itertools import count
+from mmap import mmap
 from os import WNOHANG, _exit, fork, waitpid
 from pathlib import Path
 from time import monotonic, sleep
@@ -34,6 +35,30 @@ def ride(writer: LiveWriter, rate: float, ticks: int | None = None, told: Callab
         sleep(max(start + k / rate - monotonic(), 0.0))
         writer.tick(*live_tick(k / rate))
         told(k / rate)
+
+
+class SharedClock:
+    """Time of a loop and of the process that follows it: it stands still while either of them does.
+
+    So a busy machine changes nothing in what happens when, though both processes are real and run side by side.
+    """
+
+    def __init__(self) -> None:
+        self._times = memoryview(mmap(-1, 16)).cast("d")  # now, and when the follower wakes
+
+    def now(self) -> float:
+        """Time that both have come to, s."""
+        return self._times[0]
+
+    def sleep(self, seconds: float) -> None:
+        """The follower's: wait until the loop has come so far."""
+        self._times[1] = self.now() + seconds
+        until(lambda: self.now() >= self._times[1])
+
+    def advance(self, seconds: float) -> None:
+        """The loop's: go on, but not past a follower that is awake."""
+        until(lambda: self._times[1] > self.now())
+        self._times[0] += seconds
 
 
 @contextmanager

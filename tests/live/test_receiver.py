@@ -197,12 +197,12 @@ class TestTheWatchdog:
 
 class TestTheCommand:
     def test_it_tells_rate_lateness_and_the_trip_at_the_end(self) -> None:
-        done = received(200, "--duration", "2.0")
+        done = received(20, "--duration", "3.0")  # a tenth of a second is sent, and up to three on a busy machine
         told = json.loads(done.stdout)
         assert done.returncode == 1, "the sender stops before the receiver does"
         assert "allowed: 0.1 s" in told["tripped"]
         assert told["good"] > 0
-        assert told["rate_hz"] == round(told["good"] / 2.0, 2)
+        assert told["rate_hz"] == round(told["good"] / 3.0, 2)
         assert -1e3 * LEAD < told["lateness_p0_ms"] <= told["lateness_p50_ms"] <= told["lateness_p100_ms"]
 
     def test_nothing_received_is_no_success(self) -> None:
@@ -236,14 +236,14 @@ def received(count: int, *arguments: str) -> subprocess.CompletedProcess[str]:
         port = free.getsockname()[1]
     command = [sys.executable, TOOL, "--port", str(port), "--json", *arguments]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        sender, k, taken, give_up = SetPointSender("127.0.0.1", port), 0, 0, monotonic() + 30.0
-        while taken < count and monotonic() < give_up:
+        sender, k, taken = SetPointSender("127.0.0.1", port), 0, 0
+        while taken < count and k < 12_000:
             before = sender.unsent
             sender.send(k, k * 0.005, monotonic() + LEAD, 2, swinging(k * 0.005))
             sleep(0.005)
             k, taken = k + 1, taken + 1 if sender.unsent == before else 0  # every other one is not taken while nobody listens
         sender.close()
-        out, error = process.communicate(timeout=30.0)
+        out, error = process.communicate(timeout=60.0)
     return subprocess.CompletedProcess(command, process.returncode, out, error)
 
 

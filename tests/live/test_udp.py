@@ -47,7 +47,8 @@ def test_datagrams_come_in_order_with_their_sender(receiver: UdpReceiver, sender
 def test_the_kernel_tells_how_long_ago_it_came(receiver: UdpReceiver, sender: socket.socket) -> None:
     """Whenever it is read: the first of two is older by what was waited between them.
 
-    Once the kernel does: where nobody else has asked for it, it begins some time later.
+    Once the kernel does: where nobody else has asked for it, it begins some time later. And once nobody comes between the
+    two readings: a busy machine may.
     """
 
     def apart() -> float:
@@ -55,10 +56,10 @@ def test_the_kernel_tells_how_long_ago_it_came(receiver: UdpReceiver, sender: so
         sleep(0.05)  # a real clock is what is tested
         sender.sendto(b"late", receiver.address)
         early, late = all_of(receiver)
-        assert 0.0 <= late.ago < early.ago
+        assert late.ago >= 0.0
         return early.ago - late.ago
 
-    until(lambda: apart() >= 0.045, 1.0)
+    until(lambda: apart() >= 0.045)
 
 
 def test_a_long_datagram_is_cut_and_keeps_its_neighbours(receiver: UdpReceiver, sender: socket.socket) -> None:
