@@ -54,7 +54,8 @@ class TimedInput:
 
     A ramp starts from the property's value at that moment; of two on one property the later takes over from wherever it is.
     Inputs at time 0 are in effect before the first step and, without a ramp, during the trim and in the first state. So set
-    wind, gear and flaps at 0, but begin a manoeuvre later: with the stick held over there is nothing to trim.
+    wind, gear and flaps at 0, but begin a manoeuvre later: with the stick held over there is nothing to trim. Turbulence at 0
+    begins with the second state.
     """
 
     time: float

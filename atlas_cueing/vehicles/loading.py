@@ -9,14 +9,12 @@ import jsbsim
 
 from ..errors import InputError
 from .flights import DEFAULT_RATE_HZ, MAX_RATE_HZ, MIN_RATE_HZ, AircraftFlight, ScriptFlight
+from .ground import has_flat_gear
 from .jsbsim_log import JsbsimLog, capture
-from .library import is_property_name, own_aircraft, root, suggestion, writable_names
+from .library import FORBIDDEN, JSBSIM_ERRORS, TRIM, is_property_name, one_line, own_aircraft, root, suggestion, writable_names
 from .private_copy import copy_aircraft, copy_script
 
-# What JSBSim's C++ exceptions become in Python; its own jsbsim.BaseError is a RuntimeError.
-JSBSIM_ERRORS = (RuntimeError, ValueError, IndexError, ArithmeticError, MemoryError, OSError)
 LATEST_END = 1e6  # s, of a script; the longest own one, a balloon's, goes on for a week (6e5 s)
-_WRITERS = ("simulation/do_linearization", "simulation/write-state-file")  # setting them writes a file
 _OUTPUT = "simulation/output/"  # properties of the outputs that were left out; scripts may go on setting them
 _SILENT = 0  # debug level: no reports on what was loaded
 
@@ -73,8 +71,8 @@ def _try(load: Callable[[], bool], what: str, originals: dict[str, str], log: Js
 
 
 def _disarm(fdm: jsbsim.FGFDMExec) -> None:
-    """Make JSBSim ignore what would write a file into the working directory."""
-    for name in _WRITERS:
+    """Make JSBSim ignore what would write a file into the working directory, never end, or end the process."""
+    for name in FORBIDDEN if has_flat_gear(fdm) else [name for name in FORBIDDEN if name != TRIM]:
         node = fdm.get_property_manager().get_node(name)
         if node:
             node.set_attribute(jsbsim.Attribute.WRITE, False)
@@ -115,8 +113,3 @@ def _checked(rate_hz: float) -> float:
     if not MIN_RATE_HZ <= rate_hz <= MAX_RATE_HZ:
         raise InputError(f"rate {rate_hz:g} Hz, allowed: {MIN_RATE_HZ:g} <= rate_hz <= {MAX_RATE_HZ:g}")
     return rate_hz
-
-
-def one_line(error: BaseException) -> str:
-    """An exception's text on one line."""
-    return " ".join(str(error).split())
