@@ -3,6 +3,7 @@
     AtlasError
     |-- InputError              a file, option or value is wrong; nothing was written (exit status 2)
     |   |-- ScenarioError       every mistake of a scenario or platform file at once
+    |   |-- StartError          a flight that cannot begin as it is told: no trim, or in the ground
     |   |-- SlipConditionError  a geometry whose wheels cannot turn the sphere about every axis
     |   `-- OutputError         the log cannot be written where it was asked for
     |-- VehicleError            the vehicle model failed in mid-run; what came before is good (exit status 1)
@@ -15,6 +16,7 @@ Messages carry evidence: what, which value, which bounds (written `lower <= valu
 """
 
 from dataclasses import dataclass
+from math import isinf
 
 
 class AtlasError(Exception):
@@ -47,6 +49,10 @@ class ScenarioError(InputError):
         super().__init__("\n".join(str(mistake) for mistake in mistakes))
 
 
+class StartError(InputError):
+    """A flight cannot begin as it is told; the text starts with the key below `[vehicle]`."""
+
+
 class SlipConditionError(InputError):
     """The induced rows are not independent, so the kinematic slip condition fails (paper, section 3.1)."""
 
@@ -55,9 +61,13 @@ class SlipConditionError(InputError):
         self.condition_number = condition_number
         super().__init__(
             f"platform {name!r} violates the kinematic slip condition: its three induced rows are not independent "
-            f"(determinant {determinant:.3g}, condition number {condition_number:.3g}, allowed: at most {bound:.0e}); "
+            f"(determinant {determinant:.3g}, condition number {_number(condition_number)}, allowed: at most {bound:.0e}); "
             "move a contact point or turn a drive direction"
         )
+
+
+def _number(value: float) -> str:
+    return "infinite" if isinf(value) else f"{value:.3g}"
 
 
 class OutputError(InputError):

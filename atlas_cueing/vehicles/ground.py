@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 import jsbsim
 
-from ..errors import InputError
+from ..errors import StartError
 from ..rotation import Vec3, cross, norm, subtract
 from .flights import InitialConditions
 from .readings import METRES_PER_FOOT
@@ -24,7 +24,7 @@ _SMALLEST_TRIANGLE = 1e-3  # square inches, twice the area; what is meant to be 
 def check_standing(fdm: jsbsim.FGFDMExec, initial: InitialConditions) -> None:
     """Refuse a first state whose gear is pressed into the ground far beyond what the aircraft weighs.
 
-    It would be thrown into the air, with tens of g at once. Raises InputError that says how deep it is and what to do.
+    It would be thrown into the air, with tens of g at once. Raises StartError that says how deep it is and what to do.
     """
     depth = METRES_PER_FOOT * max((unit["compression-ft"] for unit in _units(fdm)), default=0.0)
     force = _force(fdm) / fdm["inertia/weight-lbs"]
@@ -32,10 +32,10 @@ def check_standing(fdm: jsbsim.FGFDMExec, initial: InitialConditions) -> None:
         return
     above = ceil(10.0 * (initial.altitude + depth)) / 10.0
     times = f"{force:.3g} times its weight" if isfinite(force) else "no finite force"
-    raise InputError(
-        f"initial altitude = {initial.altitude:g} m: it is that of the centre of gravity, so the "
+    raise StartError(
+        f"initial.altitude_m = {initial.altitude:g}: it is that of the centre of gravity, so the "
         f"aircraft begins {depth:.3g} m in the ground, with {times} on its gear, allowed: at most "
-        f"{HARDEST_START:g}; at rest trim = true sets it on its wheels, and altitude >= {above:g} m "
+        f"{HARDEST_START:g}; at rest trim = true sets it on its wheels, and altitude_m >= {above:g} "
         "is above the ground"
     )
 

@@ -5,7 +5,7 @@ from math import degrees, inf, pi
 
 import jsbsim
 
-from ..errors import InputError, VehicleError
+from ..errors import InputError, StartError, VehicleError
 from .flights import AircraftFlight, InitialConditions, TimedInput
 from .ground import check_standing, stand_objection
 from .inputs import InputPlayer
@@ -48,8 +48,8 @@ def start_aircraft(fdm: jsbsim.FGFDMExec, flight: AircraftFlight) -> InputPlayer
     win over its controls; turbulence, which has no equilibrium, and in JSBSim no value at rest, is
     set one step later.
 
-    Raises InputError for a bad number or property, when the aircraft cannot be trimmed, and when it
-    starts in the ground (see `ground.py`).
+    Raises InputError for a bad number or property, and StartError when the aircraft cannot be
+    trimmed or starts in the ground (see `ground.py`).
     """
     initial = flight.initial
     _check(initial)
@@ -65,7 +65,7 @@ def start_aircraft(fdm: jsbsim.FGFDMExec, flight: AircraftFlight) -> InputPlayer
             _trim(fdm, flight)
         moved = player.play(0.0)
     except VehicleError as error:
-        raise InputError(f"{error.reason}; allowed at time 0: what does not fail there") from error
+        raise StartError(f"{error.reason}; allowed at time 0: what does not fail there") from error
     if moved:
         _settle(fdm)
     check_standing(fdm, initial)
@@ -111,18 +111,19 @@ def _trim(fdm: jsbsim.FGFDMExec, flight: AircraftFlight) -> None:
     except JSBSIM_ERRORS as error:
         reason = f"JSBSim: {one_line(error)}"
     if reason:
-        raise InputError(
-            f"initial trim: no {mode.name.lower()} trim of {flight.aircraft!r} {_advice(flight, standing, reason)}"
-        )
+        failed = f"no {mode.name.lower()} trim of {flight.aircraft!r}"
+        raise StartError(f"initial.trim = true: {failed} {_advice(flight, standing, reason)}")
 
 
 def _advice(flight: AircraftFlight, standing: bool, reason: str) -> str:
     """Under which conditions the trim failed, and what to do."""
     initial = flight.initial
-    where = f"at altitude = {initial.altitude:g} m, airspeed = {initial.airspeed:g} m/s, pitch = {degrees(initial.pitch):g} deg"
-    acting = sorted({event.property for event in flight.inputs if event.time == 0.0 and not _is_turbulence(event)})
-    later = f", or later inputs (at time 0 these act on the trim: {', '.join(acting)})" if acting else ""
-    steady = "a start above the ground" if standing else "an altitude and airspeed at which it can fly steadily"
+    where = f"at altitude_m = {initial.altitude:g}, airspeed_m_s = {initial.airspeed:g}"
+    where += f", pitch_deg = {degrees(initial.pitch):g}"
+    at_start = {event.property for event in flight.inputs if event.time == 0.0 and not _is_turbulence(event)}
+    acting = f" (at time 0 these act on the trim: {', '.join(sorted(at_start))})" if at_start else ""
+    steady = "a start above the ground" if standing else "an altitude and airspeed of steady flight"
+    later = f", later inputs{acting}" if acting else ""
     return f"{where}: {reason}; allowed: {steady}{later}, or trim = false"
 
 

@@ -15,9 +15,9 @@ PARKED = InitialConditions(altitude=0.0, airspeed=0.0, engines_running=False)
 @pytest.mark.parametrize("aircraft", ["737", "c172x", "f16", "T37", "sgs126", "Submarine_Scout", "F450", "ZLT-NT"])
 def test_a_start_in_the_ground_is_refused_and_the_height_that_is_told_is_none(aircraft: str) -> None:
     flight = AircraftFlight(aircraft, PARKED, duration=0.5)
-    with pytest.raises(InputError, match=r"initial altitude = 0 m: .* m in the ground, with .*trim = true sets it") as caught:
+    with pytest.raises(InputError, match=r"initial.altitude_m = 0: .* m in the ground, with .*trim = true sets it") as caught:
         JsbsimVehicle(flight)
-    above = float(str(caught.value).split("altitude >= ")[1].split(" m")[0])
+    above = float(str(caught.value).split("altitude_m >= ")[1].split()[0])
     assert 0.0 < above < 30.0
     JsbsimVehicle(replace(flight, initial=replace(PARKED, altitude=above)))
 

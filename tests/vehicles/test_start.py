@@ -75,7 +75,7 @@ def test_a_trim_that_fails_is_refused_with_where_it_was_tried_and_what_acted_on_
         JsbsimVehicle(cessna(flaps, rudder, initial=replace(CRUISE, airspeed=10.0)))
     told = str(caught.value)
     assert told.startswith(
-        "initial trim: no full trim of 'c172x' at altitude = 1500 m, airspeed = 10 m/s, pitch = 0 deg: JSBSim:"
+        "initial.trim = true: no full trim of 'c172x' at altitude_m = 1500, airspeed_m_s = 10, pitch_deg = 0"
     )
     assert "at time 0 these act on the trim: fcs/flap-cmd-norm)" in told
     assert told.endswith("or trim = false")
