@@ -4,6 +4,7 @@
     |-- InputError              a file, option or value is wrong; nothing was written (exit status 2)
     |   |-- ScenarioError       every mistake of a scenario or platform file at once
     |   |-- MissingExtraError   a package of an extra is not installed
+    |   |-- StartError          a flight that cannot begin as it is told: no trim, or in the ground
     |   |-- SlipConditionError  a geometry whose wheels cannot turn the sphere about every axis
     |   `-- OutputError         the log cannot be written where it was asked for
     |-- PrintError              standard output takes nothing more; what was recorded is kept (exit status 1)
@@ -18,6 +19,7 @@ Messages carry evidence: what, which value, which bounds (written `lower <= valu
 
 import sys
 from dataclasses import dataclass
+from math import isinf
 from shlex import quote
 
 from .printable import printable
@@ -70,6 +72,10 @@ class MissingExtraError(InputError):
         super().__init__(f"{what} needs {package}; install it with: {PIP} install 'atlas_cueing[{extra}]'")
 
 
+class StartError(InputError):
+    """A flight cannot begin as it is told; the text starts with the key below `[vehicle]`."""
+
+
 class SlipConditionError(InputError):
     """The induced rows are not independent, so the kinematic slip condition fails (paper, section 3.1)."""
 
@@ -78,9 +84,13 @@ class SlipConditionError(InputError):
         self.condition_number = condition_number
         super().__init__(
             f"platform {name!r} violates the kinematic slip condition: its three induced rows are not independent "
-            f"(determinant {determinant:.3g}, condition number {condition_number:.3g}, allowed: at most {bound:.0e}); "
+            f"(determinant {determinant:.3g}, condition number {_number(condition_number)}, allowed: at most {bound:.0e}); "
             "move a contact point or turn a drive direction"
         )
+
+
+def _number(value: float) -> str:
+    return "infinite" if isinf(value) else f"{value:.3g}"
 
 
 class OutputError(InputError):

@@ -25,7 +25,9 @@ def fly_alone(order: Order, desk: Path) -> Record:
     try:
         with TemporaryDirectory(prefix="atlas_cueing_") as folder:
             for name, content in order.files.items():
-                (Path(folder) / name).write_bytes(content.encode("latin-1"))
+                path = Path(folder) / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_bytes(content.encode("latin-1"))
             scenario = load_scenario(Path(folder) / "scenario.toml", trust_models=order.trust_models)
             here = run_id(scenario)
             if here != order.id:
@@ -36,7 +38,7 @@ def fly_alone(order: Order, desk: Path) -> Record:
     except OutputError as error:
         return Record(order.id, "recording_failed", str(error))
     except InputError as error:  # the scenario was checked when it was planned, so it is the model that does not load
-        return Record(order.id, "vehicle_failed", str(error))
+        return Record(order.id, "vehicle_failed", str(error).replace(f"{folder}/", ""))
     except OSError as error:
         return Record(order.id, "recording_failed", f"{type(error).__name__}: {error}")
     except Exception as error:  # noqa: BLE001 - one run's mishap is no other's

@@ -86,7 +86,7 @@ def _add(runs: dict[str, PlannedRun], wrong: dict[str, None], file: Path, varian
             _check(variant.scenario, step)
             name = run_id(variant.scenario)
         except InputError as error:
-            wrong[f"{file}: {error}"] = None
+            wrong |= dict.fromkeys(f"{file}: {line}" for line in str(error).splitlines())
             refused += 1
             if refused == MOST_REFUSED:
                 break

@@ -155,7 +155,8 @@ def _load(scenario: Scenario, flown: Flown) -> Vehicle | None:
     """The vehicle at its first state; none when it fails there, which is a result of the run."""
     flight = scenario.flight
     try:
-        return SignalVehicle(flight) if isinstance(flight, SignalFlight) else JsbsimVehicle(flight)
+        with scenario.naming_file():
+            return SignalVehicle(flight) if isinstance(flight, SignalFlight) else JsbsimVehicle(flight)
     except VehicleError as error:
         flown.result, flown.reason = "vehicle_failed", str(error)
         return None

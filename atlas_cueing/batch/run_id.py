@@ -9,15 +9,19 @@ from ..scenario import Scenario
 PACKAGES = ("atlas_cueing", "jsbsim", "ruckig")  # whose versions a log depends on
 
 _DIGITS = 12  # of the hash: 2^48, so that among a million runs two are mixed up with probability 0.002
-_LONGEST_NAME = 60  # characters of the readable part; file names end at 255 bytes
+_LONGEST_NAME = 60  # bytes of each readable part; file names end at 255
 
 
 def run_id(scenario: Scenario) -> str:
     """Name and hash of a run, fit for a file name: a function of the resolved scenario, platform, script and versions."""
     table = scenario.file.vehicle
     flown = (table.script or table.aircraft or table.source).rsplit("/", 1)[-1].removesuffix(".xml")
-    readable = f"{scenario.name[:_LONGEST_NAME]}-{_plain(flown)[:_LONGEST_NAME]}-{scenario.file.cueing.method}"
+    readable = f"{_cut(scenario.name)}-{_plain(flown)[:_LONGEST_NAME]}-{scenario.file.cueing.method}"
     return f"{readable}-{digest(scenario.attachments())[:_DIGITS]}"
+
+
+def _cut(name: str) -> str:
+    return name.encode()[:_LONGEST_NAME].decode(errors="ignore")
 
 
 def digest(files: dict[str, bytes]) -> str:

@@ -30,5 +30,8 @@ def platform(
     figures = kinematics(load_platform(name_or_file))
     typer.echo(one_json(figures) if as_json else platform_summary(figures))
     if not figures["slip_free"]:
-        say("singular: the three induced rows are not independent (kinematic slip condition)")
+        say(
+            f"{name_or_file}: wheel: singular, the three induced rows are not independent "
+            "(kinematic slip condition); move a contact point or turn a drive direction"
+        )
         raise typer.Exit(1)

@@ -1,7 +1,7 @@
 """What is printed about a run and about a platform."""
 
 from collections.abc import Mapping
-from math import degrees
+from math import degrees, isinf
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -163,5 +163,7 @@ def _row(row: "Vec3") -> str:
 
 def _number(value: Any) -> str:
     if isinstance(value, tuple):
-        return "  ".join(f"{x:.6g}" for x in value)
+        return "  ".join(_number(x) for x in value)
+    if isinstance(value, float) and isinf(value):
+        return "unbounded"  # of a singular geometry: no wheel turns with that axis
     return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -9,7 +9,9 @@ import typer
 
 from ..printable import printable
 
-TRUST_MODELS = "Fly a script that lies beside the scenario; it is a program of whoever wrote it."  # help of --trust-models
+TRUST_MODELS = (  # help of --trust-models
+    "Fly a script or an aircraft that lies beside the scenario; it is a program of whoever wrote it."
+)
 
 
 def one_json(figures: Mapping[str, Any]) -> str:

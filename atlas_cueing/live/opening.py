@@ -23,4 +23,5 @@ def open_source(scenario: Scenario) -> Source:
         case SignalFlight():
             return VehicleSource(SignalVehicle(flight))
         case _:
-            return VehicleSource(JsbsimVehicle(flight))
+            with scenario.naming_file():
+                return VehicleSource(JsbsimVehicle(flight))

@@ -11,6 +11,8 @@ from ..scenario import Platform, load_platform
 
 SCENARIO, PLATFORM = "scenario.toml", "platform.toml"
 LARGEST = 1 << 20  # bytes; a scenario may have 256 kB, a user's script some more
+_LONGEST_NAME = 200  # bytes
+_DEEPEST = 8  # folders and file; an aircraft has four
 
 
 @contextmanager
@@ -20,6 +22,7 @@ def unpacked(log: Log) -> Iterator[Path]:
     with TemporaryDirectory(prefix="atlas-cueing-") as name:
         folder = Path(name)
         for file, content in log.attachments.items():
+            (folder / file).parent.mkdir(parents=True, exist_ok=True)
             (folder / file).write_bytes(content)
         yield folder
 
@@ -43,7 +46,14 @@ def as_inside(error: Exception, folder: Path) -> str:
 def _check(log: Log) -> None:
     files: Mapping[str, bytes] = log.attachments
     for name, content in files.items():
-        if not name.isprintable() or Path(name).name != name or len(name.encode()) > 200:
-            raise LogError(f"{log.path}: an attachment is called {name[:60]!r}, allowed: a plain file name")
+        if not name.isprintable() or not _stays_inside(name) or len(name.encode()) > _LONGEST_NAME:
+            allowed = "allowed: names of folders and a file that lead nowhere else"
+            raise LogError(f"{log.path}: an attachment is called {name[:60]!r}, {allowed}")
         if len(content) > LARGEST:
             raise LogError(f"{log.path}: attachment {name!r} has {len(content)} bytes, allowed: at most {LARGEST}")
+
+
+def _stays_inside(name: str) -> bool:
+    """Whether a path of an attachment is one of plain names: `aircraft/mine/mine.xml`."""
+    parts = name.split("/")
+    return len(parts) <= _DEEPEST and all(part not in ("", ".", "..") for part in parts)

@@ -4,13 +4,15 @@ from collections.abc import Sequence
 
 from ..cueing import Cues
 from ..cueing import build as build_cueing
-from ..errors import InputError
+from ..errors import InputError, Mistake, ScenarioError, SlipConditionError
 from ..pipeline import Pipeline
 from ..signals import Vehicle, VehicleState
 from ..smoothing import Smoothing
 from ..vehicles import FlownAhead
 from ..wheels import Wheels
 from .cueing import PreviewTable
+from .mistakes import SET, dotted, shown
+from .platform import without_room
 from .scenario import Scenario
 
 
@@ -23,7 +25,8 @@ def build(scenario: Scenario, dt: float, states: Sequence[VehicleState] | None =
     a method that needs the whole flight and does not have it, or finds no plan for it.
     """
     platform = scenario.platform
-    wheels = Wheels(platform.geometry())
+    _check_room(scenario, dt)
+    wheels = _wheels(scenario)
     try:
         smoothing = Smoothing(
             dt=dt,
@@ -34,7 +37,9 @@ def build(scenario: Scenario, dt: float, states: Sequence[VehicleState] | None =
         )
         cueing = _cueing(scenario, dt, states)
     except ValueError as error:
-        raise InputError(f"scenario {scenario.name!r} on platform {platform.name!r} at {1.0 / dt:g} Hz: {error}") from error
+        raise InputError(
+            f"{scenario.source}: scenario {scenario.name!r} on platform {platform.name!r} at {1.0 / dt:g} Hz: {error}"
+        ) from error
     return Pipeline(cueing, smoothing, wheels)
 
 
@@ -48,6 +53,23 @@ def prepare(scenario: Scenario, vehicle: Vehicle) -> tuple[Vehicle, Pipeline]:
         return vehicle, build(scenario, vehicle.dt)
     ahead = FlownAhead(vehicle)
     return ahead, build(scenario, ahead.dt, ahead.states)
+
+
+def _wheels(scenario: Scenario) -> Wheels:
+    try:
+        return Wheels(scenario.platform.geometry())
+    except SlipConditionError as error:
+        error.args = (f"{scenario.name_platform(('wheel',))}: wheel: {error}",)
+        raise
+
+
+def _check_room(scenario: Scenario, dt: float) -> None:
+    mistakes = []
+    for key, value, allowed in without_room(scenario.platform, dt):
+        file = scenario.name_platform(key)
+        mistakes.append(Mistake(file, dotted(("platform", *key) if file == SET else key), shown(value), allowed))
+    if mistakes:
+        raise ScenarioError(mistakes)
 
 
 def _cueing(scenario: Scenario, dt: float, states: Sequence[VehicleState] | None) -> Cues:

@@ -18,7 +18,7 @@ from .platform import Platform, presets
 from .reading import TomlFiles, read_toml
 from .scenario import Scenario, ScenarioFile
 from .table import Table
-from .vehicle import vehicle_rules
+from .vehicle import unsettable_inputs, vehicle_rules
 
 T = TypeVar("T", bound=Table)
 
@@ -32,7 +32,7 @@ def load_scenario(path: str | Path, overrides: Sequence[str] = (), *, trust_mode
     `platform.wheel_limits.speed_rad_s=20`.
     A value is TOML, or else a bare string. Raises ScenarioError with every mistake of both files and of the overrides.
 
-    trust_models: whether a script beside the scenario may be flown; it can be read and cued anew in any case.
+    trust_models: whether a script or aircraft beside the scenario may be flown; it can be read and cued anew in any case.
     """
     if os.path.isdir(path):
         batch = f"to fly all scenarios in it: atlas-cueing batch {path} -o RESULTS"
@@ -57,11 +57,13 @@ class Known:
             self._platforms[key] = _read_platform(path, overrides, self._files)
         return self._platforms[key]
 
-    def table(self, data: dict[str, Any], overrides: Overrides, path: Path) -> tuple[ScenarioFile | None, list[Mistake]]:
+    def table(
+        self, data: dict[str, Any], overrides: Overrides, path: Path, trusted: bool
+    ) -> tuple[ScenarioFile | None, list[Mistake]]:
         """The scenario's own table, or none and what is wrong with it; the overrides are in `data` already."""
         key = _exactly(overrides)
         if key not in self._tables:
-            self._tables[key] = _read_table(data, overrides, path)
+            self._tables[key] = _read_table(data, overrides, path, trusted)
         return self._tables[key]
 
 
@@ -85,13 +87,13 @@ def resolve(
     if ("cueing", "method") in flat:
         _leave_method(data, flat["cueing", "method"])
     mistakes = apply_overrides(data, flat)
-    file, found = known.table(data, flat, path)
+    file, found = known.table(data, flat, path, trust_models)
     mistakes += found
     platform, found = _chosen_platform(data.get("platform"), path.parent, deep, known)
     mistakes += found
     if mistakes or file is None or platform is None:
         raise ScenarioError(mistakes)
-    return Scenario(file, platform, path.parent, trust_models)
+    return Scenario(file, platform, path.parent, trust_models, str(path), _platform_namer(file, path.parent, deep))
 
 
 def load_platform(name_or_path: str) -> Platform:
@@ -112,10 +114,14 @@ def _exactly(overrides: Overrides) -> bytes:
     return pickle.dumps(overrides)
 
 
-def _read_table(data: dict[str, Any], overrides: Overrides, path: Path) -> tuple[ScenarioFile | None, list[Mistake]]:
+def _read_table(
+    data: dict[str, Any], overrides: Overrides, path: Path, trusted: bool
+) -> tuple[ScenarioFile | None, list[Mistake]]:
     name_file = FileNamer(str(path), overrides)
     file, mistakes = _validate(ScenarioFile, data, name_file, path.parent)
     broken = _broken_rules(data, name_file)
+    for key, value, wrong in unsettable_inputs(data, path.parent, trusted):
+        broken.append(Mistake(name_file(key), dotted(key), value, wrong))
     return file, [*mistakes, *broken[:MOST_SHOWN], *more(len(broken) - MOST_SHOWN, str(path))]
 
 
@@ -129,6 +135,12 @@ def _read_platform(path: Path, overrides: Overrides, files: TomlFiles) -> tuple[
         Platform, data, FileNamer(path.name if path in presets().values() else str(path), overrides), path
     )
     return platform, [replace(m, key=f"platform.{m.key}") if m.file == SET else m for m in mistakes + found]
+
+
+def _platform_namer(file: ScenarioFile, folder: Path, overrides: Overrides) -> FileNamer:
+    """Which file a key of the platform came from, for what is found wrong with it later."""
+    preset, other = file.platform.preset, file.platform.file
+    return FileNamer(presets()[preset].name if preset else str(folder / (other or "")), overrides)
 
 
 def _chosen_platform(choice: Any, folder: Path, overrides: Overrides, known: Known) -> tuple[Platform | None, list[Mistake]]:

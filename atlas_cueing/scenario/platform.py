@@ -2,25 +2,45 @@
 
 from functools import cache, lru_cache
 from pathlib import Path
-from typing import Annotated, TypeAlias
+from typing import Annotated, Any, TypeAlias
+from unicodedata import category, normalize
 
-from pydantic import ValidationInfo, field_validator, model_validator
+from pydantic import BeforeValidator, ValidationInfo, field_validator, model_validator
 
 from ..errors import InputError
 from ..rotation import ZERO, Vec3, add, norm
 from ..signals import StageLimits, WheelLimits
 from ..wheels import Geometry, OmniWheel
-from .table import ONE_OR_THREE, THREE, Finite, Table, number, object_to, refuse, text
+from .table import ONE_OR_THREE, THREE, Finite, Table, check_text, number, object_to, refuse
 
 Direction: TypeAlias = Annotated[tuple[Finite, Finite, Finite], THREE]
 Length: TypeAlias = Annotated[float, number(0.001, 100.0)]  # m; from a bead to a gasometer
 Limit: TypeAlias = Annotated[float, number(1e-6, 1e6)]  # squares and quotients of these stay far from overflow
 Limits: TypeAlias = Annotated[tuple[Limit, Limit, Limit], ONE_OR_THREE]
 
-NAME = text(
-    "letters, digits, '.', '_', '-', not starting with '.', at most 100",
-    lambda name: 0 < len(name) <= 100 and name[0] != "." and all(c.isascii() and (c.isalnum() or c in "._-") for c in name),
-)
+_LONGEST_NAME = 100  # characters, and ...
+_LONGEST_NAME_BYTES = 200  # ... bytes in UTF-8: names of files, which it begins, end at 255
+_LETTERS = ("L", "M", "Nd")  # categories of Unicode: letters, the marks that belong to them, digits
+
+
+def _name(value: Any) -> str:
+    """A name, composed (NFC), so that what looks the same is the same."""
+    allowed = "letters and digits of any alphabet, '.', '_', '-', beginning with a letter, digit, '_' or '-'"
+    allowed += f", at most {_LONGEST_NAME} characters and {_LONGEST_NAME_BYTES} bytes"
+    check_text(value, allowed)
+    name = normalize("NFC", value)
+    if not 0 < len(name) <= _LONGEST_NAME or not all(map(_is_name_part, name)):
+        raise refuse(allowed)
+    if name[0] == "." or category(name[0]).startswith("M") or len(name.encode()) > _LONGEST_NAME_BYTES:
+        raise refuse(allowed)
+    return name
+
+
+def _is_name_part(character: str) -> bool:
+    return character in "._-" or category(character).startswith(_LETTERS)
+
+
+NAME = BeforeValidator(_name)
 
 
 class SphereTable(Table):
@@ -115,6 +135,24 @@ class Platform(Table):
     def head_S(self) -> Vec3:
         """The rider's head from the sphere centre, m, in S."""
         return self.rider.head_m
+
+
+def without_room(platform: Platform, dt: float) -> list[tuple[tuple[str, str], float, str]]:
+    """Limits that leave no room to move between two ticks of dt s, as smoothing needs it: (key, value, what is allowed)."""
+    wheels, stage = platform.wheel_limits, platform.stage_limits
+    rows = (
+        ("wheel_limits", "speed_rad_s", wheels.speed_rad_s, "jerk_rad_s3", wheels.jerk_rad_s3),
+        ("stage_limits", "speed_m_s", stage.speed_m_s, "jerk_m_s3", stage.jerk_m_s3),
+        ("stage_limits", "travel_m", stage.travel_m, "acceleration_m_s2", stage.acceleration_m_s2),
+    )
+    found = []
+    for table, key, values, steeper, others in rows:
+        for value, other in dict.fromkeys(zip(values, others, strict=True)):
+            least = other * dt * dt / 8.0  # between two ticks it swings by that much
+            if not value > least:
+                allowed = f"value > {least:.3g}, which is {steeper} ({other:g}) dt^2 / 8 at {1.0 / dt:g} Hz"
+                found.append(((table, key), value, f"allowed: {allowed}"))
+    return found
 
 
 @cache

@@ -6,6 +6,7 @@ tomllib takes seconds for one dotted key of 40 kB and raises RecursionError for 
 import re
 import stat
 import tomllib
+from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -82,8 +83,10 @@ def _read(path: Path) -> str:
         raise _mistake(str(path), "file", "is a log (MCAP), allowed: a TOML file; to look at a log: atlas-cueing review")
     if len(content) > LARGEST_FILE:
         raise _mistake(str(path), "file", f"too large, allowed: size <= {LARGEST_FILE} bytes")
+    if content.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
+        raise _mistake(str(path), "file", "is UTF-16 text, allowed: UTF-8; save it anew as UTF-8")
     try:
-        return content.decode()
+        return content.removeprefix(BOM_UTF8).decode()  # Windows' editors put the mark there
     except UnicodeDecodeError as error:
         raise _mistake(str(path), "file", f"not UTF-8 text: byte {error.start}") from None
 

@@ -1,19 +1,22 @@
 """The scenario file, and the scenario that it becomes together with its platform."""
 
 import re
-from dataclasses import dataclass
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any
 
 import tomli_w
 from pydantic import BeforeValidator
 
-from ..errors import InputError
+from ..errors import InputError, StartError
 from ..printable import is_name, utf8
 from ..recording.recorder import MAX_CHUNK_TICKS
-from ..vehicles.private_copy import beside, read_users
+from ..vehicles.private_copy import beside
+from ..vehicles.user_models import read_users, user_files, user_model
 from .cueing import BlendTable, CueingTable, PreviewTable
-from .mistakes import nearest
+from .mistakes import FileNamer, nearest
 from .platform import NAME, Platform, presets
 from .table import Table, number, object_to, refuse, text, whole
 from .vehicle import Flight, LiveFlight, VehicleTable
@@ -22,6 +25,7 @@ from .vehicle import Flight, LiveFlight, VehicleTable
 DISPENSABLE_TOPICS = ("/tf",)
 _MOST_SKIPPED = 20  # topics; a log has eight
 _LONGEST_DESCRIPTION = 2000  # characters; it goes into every log of a sweep
+_LARGEST_MODEL = 8 << 20  # bytes, of a user's aircraft with all its files; it goes into every log
 _SHORT = text(f"a text of at most {_LONGEST_DESCRIPTION} characters", lambda written: len(written) <= _LONGEST_DESCRIPTION)
 
 
@@ -80,15 +84,18 @@ class ScenarioFile(Table):
 
 @dataclass(frozen=True, slots=True)
 class Scenario:
-    """A scenario: the file with every override in it, its platform, and the folder of the user's scripts.
+    """A scenario: the file with every override in it, its platform, and the folder of the user's scripts and aircraft.
 
-    trust_models: whether a user's script may be flown; without it everything but the flight can be had.
+    trust_models: whether a user's script or aircraft may be flown; without it everything but the flight can be had.
+    source, name_platform: the scenario file, and which file a key of the platform came from, for messages.
     """
 
     file: ScenarioFile
     platform: Platform
     folder: Path
     trust_models: bool = False
+    source: str = ""
+    name_platform: FileNamer = field(default_factory=lambda: FileNamer("platform"), compare=False)
 
     @property
     def name(self) -> str:
@@ -116,19 +123,28 @@ class Scenario:
         """Return the files beside the scenario's own that it is made of; they may be missing."""
         vehicle, platform = self.file.vehicle, self.file.platform.file
         files = [self.folder / name for name in (platform, vehicle.log) if name is not None]
-        script = vehicle.user_script(self.folder)
-        if script is not None:
-            files += [script, *_beside(script, read_users(script))]
-        return tuple(files)
+        return (*files, *self._own_files().values())
+
+    @contextmanager
+    def naming_file(self) -> Iterator[None]:
+        """Around the start of a flight: a StartError gets the scenario file and the whole key."""
+        try:
+            yield
+        except StartError as error:
+            raise InputError(f"{self.source}: vehicle.{error}") from error
 
     def _check_trust(self) -> None:
-        """A script can hold whatever JSBSim understands: it is a program, of whoever wrote it."""
-        script = self.file.vehicle.user_script(self.folder)
-        if script is not None and not self.trust_models:
+        """A script can hold whatever JSBSim understands: it is a program, of whoever wrote it; so is a model."""
+        script, model = self._users()
+        if (script or model) and not self.trust_models:
             raise InputError(
-                f"{script}: this script is not one of JSBSim's own, and it is a program; "
-                "if you trust whoever wrote it, fly it with --trust-models"
+                f"{script or model}: this {'script' if script else 'aircraft'} is not one of JSBSim's own, and it is a "
+                "program; if you trust whoever wrote it, fly it with --trust-models"
             )
+
+    def _users(self) -> tuple[Path | None, Path | None]:
+        vehicle = self.file.vehicle
+        return vehicle.user_script(self.folder), vehicle.user_aircraft(self.folder)
 
     def scenario_toml(self) -> str:
         """The scenario with all defaults written out; its platform is `platform.toml`, and a user's script lies beside it."""
@@ -146,15 +162,21 @@ class Scenario:
         return tomli_w.dumps(_plain(self.platform))
 
     def attachments(self) -> dict[str, bytes]:
-        """Files that fly this scenario again when put into one folder: name to content."""
-        files = {}
-        script = self.file.vehicle.user_script(self.folder)
-        if script is not None:
-            content = read_users(script)
-            files = {path.name: read_users(path) for path in _beside(script, content)}
-            files |= {utf8(script.name): content}
+        """Files that fly this scenario again when put into one folder: path in it to content."""
+        files = _read_all(self._own_files())
         tables = {"scenario.toml": self.scenario_toml(), "platform.toml": self.platform_toml()}
         return files | {name: table.encode(errors="replace") for name, table in tables.items()}
+
+    def _own_files(self) -> dict[str, Path]:
+        """Return the user's script and aircraft with all that they name: path in the folder to file."""
+        files: dict[str, Path] = {}
+        script, model = self._users()
+        if script is not None:
+            files[utf8(script.name)] = script
+            files |= _beside(script, read_users(script), self.folder)
+        if model is not None:
+            files |= user_files(self.file.vehicle.aircraft or "", self.folder)
+        return files
 
 
 def _plain(table: Table) -> dict[str, Any]:
@@ -162,8 +184,24 @@ def _plain(table: Table) -> dict[str, Any]:
     return table.model_dump(exclude_none=True)
 
 
-def _beside(script: Path, content: bytes) -> list[Path]:
-    """The script's own file of initial conditions, when it lies in the script's folder."""
-    named = re.search(rb"initialize\s*=\s*[\"']([\w.-]+)[\"']", content)
-    path = beside(script, named[1].decode()) if named else None
-    return [path] if path else []
+def _beside(script: Path, content: bytes, folder: Path) -> dict[str, Path]:
+    """The script's own file of initial conditions, when it lies in the script's folder, and its aircraft of the user's."""
+    initialize, aircraft = _named(b"initialize", content), _named(b"aircraft", content)
+    path = beside(script, initialize) if initialize else None
+    files = {path.name: path} if path else {}
+    if aircraft and user_model(aircraft, folder):
+        files |= user_files(aircraft, folder, "" if path else initialize)
+    return files
+
+
+def _named(key: bytes, content: bytes) -> str:
+    named = re.search(key + rb"\s*=\s*[\"']([\w./-]+)[\"']", content)
+    return named[1].decode() if named else ""
+
+
+def _read_all(files: dict[str, Path]) -> dict[str, bytes]:
+    contents = {relative: read_users(path) for relative, path in files.items()}
+    size = sum(map(len, contents.values()))
+    if size > _LARGEST_MODEL:
+        raise InputError(f"{next(iter(files.values()))}: with what it names {size} bytes, allowed: {_LARGEST_MODEL}")
+    return contents

@@ -7,6 +7,8 @@ from typing import Annotated, Any, TypeAlias, get_args
 from pydantic import BaseModel, BeforeValidator, ConfigDict
 from pydantic_core import PydanticCustomError
 
+_LARGEST_SHOWN = 1e15
+
 
 class Table(BaseModel):
     """A TOML table: no unknown keys, no conversions except integer to float, immutable."""
@@ -79,14 +81,29 @@ def _one_or_three(value: Any) -> Any:
     return tuple(value)
 
 
+def check_text(value: Any, allowed: str) -> None:
+    """Refuse what is no string; of a number it is said how it is written as a text."""
+    if isinstance(value, str):
+        return
+    number = isinstance(value, int | float) and not isinstance(value, bool) and _has_few_digits(value)
+    quoted = f'; as a text: "{value}", in a shell \'"{value}"\'' if number else ""
+    raise refuse(f"{allowed}{quoted}")
+
+
+def _has_few_digits(number: float) -> bool:
+    """Whether a number has few digits; one of thousands cannot be printed."""
+    return abs(number) < _LARGEST_SHOWN
+
+
 def text(allowed: str, accept: Callable[[str], bool]) -> BeforeValidator:
     """A string that `accept` likes."""
 
     def check(value: Any) -> str:
         """The value, or a refusal that tells what is allowed."""
-        if not isinstance(value, str) or not accept(value):
+        check_text(value, allowed)
+        if not accept(value):
             raise refuse(allowed)
-        return value
+        return str(value)
 
     return BeforeValidator(check)
 

@@ -20,11 +20,13 @@ from ..vehicles import (
     ScriptFlight,
     SignalFlight,
     TimedInput,
+    input_objections,
     own_aircraft,
     own_scripts,
 )
 from ..vehicles.flightgear import DEFAULT_PORT, DEFAULT_RATE_HZ, LOOPBACK
-from .mistakes import Key, nearest
+from ..vehicles.user_models import aircraft_objection, user_model, within
+from .mistakes import MOST_SHOWN, Key, nearest, shown
 from .recorded import RecordedFlight
 from .signal import SignalTable, Time, signal_rules
 from .table import Finite, Table, number, object_to, refuse, text, whole
@@ -70,26 +72,25 @@ def _known(kind: str, names: Collection[str], value: Any) -> str:
     return value
 
 
-def _known_aircraft(value: Any) -> str:
-    return _known("aircraft", own_aircraft(), value)
+def _known_aircraft(value: Any, info: ValidationInfo) -> str:
+    """A name; so is a number, for `--set vehicle.aircraft=737` and 737 without quotes mean nothing else."""
+    name = str(value) if isinstance(value, int) and not isinstance(value, bool) else value
+    kind = "aircraft, or one in aircraft/NAME/NAME.xml beside the scenario"
+    if not isinstance(name, str):
+        return _known(kind, own_aircraft(), name)
+    objection = aircraft_objection(name, (info.context or {})["folder"])
+    if objection and name in own_aircraft():
+        raise object_to(objection)
+    return _known(kind, own_aircraft(), name) if objection else name
 
 
 def _known_script(value: Any, info: ValidationInfo) -> str:
     if isinstance(value, str) and value in own_scripts():
         return value
     folder: Path = (info.context or {})["folder"]
-    if isinstance(value, str) and script_beside(value, folder):
+    if isinstance(value, str) and value.isprintable() and within(folder, value):
         return value
     return _known("scripts, or a file in the scenario's folder (links resolved)", own_scripts(), value)
-
-
-def script_beside(name: str, folder: Path) -> Path | None:
-    """The user's script file, if it lies within the scenario's folder when all links are resolved."""
-    try:
-        path = (folder / name).resolve()
-        return path if path.is_file() and path.is_relative_to(folder.resolve()) else None
-    except (OSError, ValueError, RuntimeError):  # ValueError: a NUL in the name; RuntimeError: links in a circle
-        return None
 
 
 class InitialTable(Table):
@@ -168,7 +169,12 @@ class VehicleTable(Table):
 
     def user_script(self, folder: Path) -> Path | None:
         """The script file beside the scenario; None for one of JSBSim's own and for an aircraft."""
-        return script_beside(self.script, folder) if self.script is not None and self.script not in own_scripts() else None
+        return within(folder, self.script) if self.script is not None and self.script not in own_scripts() else None
+
+    def user_aircraft(self, folder: Path) -> Path | None:
+        """The model beside the scenario; None for one of JSBSim's own and for a script."""
+        mine = self.aircraft is not None and self.aircraft not in own_aircraft()
+        return user_model(self.aircraft or "", folder) if mine else None
 
     def flight(self, duration: float | None, folder: Path) -> Flight:
         """What to fly without a clock, for `duration` s; a user's script is looked for in `folder`.
@@ -181,11 +187,13 @@ class VehicleTable(Table):
             signals = tuple(table.signal() for table in self.signal or ())
             return SignalFlight(signals, self.rate_hz, duration, self.force_follows_attitude is not False)
         if self.script is not None:
-            script = self.user_script(folder) or own_scripts()[self.script]
-            return ScriptFlight(script, self.rate_hz, duration)
+            mine = self.user_script(folder)
+            script = mine or own_scripts()[self.script]
+            return ScriptFlight(script, self.rate_hz, duration, folder if mine else None)
         assert self.aircraft is not None and self.initial is not None  # noqa: S101, PT018 - vehicle_rules
         inputs = tuple(event.event() for event in self.input)
-        return AircraftFlight(self.aircraft, self.initial.conditions(), inputs, self.rate_hz, duration)
+        initial, models = self.initial.conditions(), folder if self.user_aircraft(folder) else None
+        return AircraftFlight(self.aircraft, initial, inputs, self.rate_hz, duration, models)
 
     def live_flight(self, duration: float | None, folder: Path) -> LiveFlight:
         """What to fly in real time; `folder` is also where a log is looked for."""
@@ -204,7 +212,7 @@ def vehicle_rules(data: dict[str, Any]) -> list[tuple[Key, str]]:
         return []
     source = vehicle.get("source", _JSBSIM)
     if not isinstance(source, str) or source not in _KEYS:
-        source = _JSBSIM  # a mistake of its own
+        return []  # a mistake of its own; what belongs together nobody knows without it
     mistakes = _strangers(vehicle, source)
     if source == _JSBSIM:
         mistakes += _jsbsim_rules(data, vehicle)
@@ -213,6 +221,37 @@ def vehicle_rules(data: dict[str, Any]) -> list[tuple[Key, str]]:
     elif source == _RECORDING and "log" not in vehicle:
         mistakes.append((("vehicle", "log"), "missing, the log that is played"))
     return mistakes
+
+
+def unsettable_inputs(data: dict[str, Any], folder: Path, trusted: bool) -> list[tuple[Key, str, str]]:
+    """Inputs on properties that the aircraft does not have, or that cannot be set: (key, value, what is wrong) for each.
+
+    An aircraft that does not load is a mistake itself. One of the user's own is looked at only when it is trusted, and none
+    without inputs.
+    """
+    vehicle = data.get("vehicle")
+    inputs = vehicle.get("input") if isinstance(vehicle, dict) else None
+    if not isinstance(vehicle, dict) or not isinstance(inputs, list | tuple) or len(inputs) > _MOST_TABLES:
+        return []
+    aircraft = str(vehicle.get("aircraft", ""))
+    mine = aircraft not in own_aircraft()
+    if aircraft_objection(aircraft, folder) or (mine and not trusted):
+        return []
+    names = {i: name for i, event in enumerate(inputs) if (name := _property(event))}
+    try:
+        wrong = input_objections(aircraft, folder if mine else None, names.values()) if names else {}
+    except InputError as error:
+        return [(("vehicle", "aircraft"), shown(aircraft), str(error))]
+    found = [(i, name) for i, name in names.items() if name in wrong][:MOST_SHOWN]
+    return [(("vehicle", "input", i, "property"), shown(name), wrong[name]) for i, name in found]
+
+
+def _property(event: Any) -> str:
+    """Of an input, checked or not; nothing when it has none that can be one."""
+    if isinstance(event, InputTable):
+        return event.property
+    name = event.get("property") if isinstance(event, dict) else None
+    return name if isinstance(name, str) and len(name) <= _LONGEST_PROPERTY else ""
 
 
 def _strangers(vehicle: dict[str, Any], source: str) -> list[tuple[Key, str]]:

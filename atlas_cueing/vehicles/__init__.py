@@ -11,6 +11,7 @@ from .flights import AircraftFlight, InitialConditions, ScriptFlight, TimedInput
 from .flown_ahead import FlownAhead
 from .jsbsim_vehicle import JsbsimVehicle
 from .library import own_aircraft, own_scripts, suggestion
+from .loading import input_objections
 from .recorded import RecordedVehicle
 from .signal import Signal, SignalFlight, SignalVehicle
 
@@ -27,6 +28,7 @@ __all__ = [
     "SignalFlight",
     "SignalVehicle",
     "TimedInput",
+    "input_objections",
     "own_aircraft",
     "own_scripts",
     "suggestion",

@@ -9,11 +9,13 @@ from typing import Final
 
 import jsbsim
 
-from ..errors import InputError
+from ..errors import InputError, VehicleError
 from .flights import TimedInput
-from .library import is_property_name, suggestion, writable_names
+from .library import JSBSIM_ERRORS, one_line, property_objection
 
 _TIME_TOLERANCE: Final = 1e-9  # s; an input at n dt belongs to step n however n dt was rounded
+# Controls and wind, which JSBSim only stores: nothing can throw there. Others may start a trim or an engine.
+_STORED: Final = ("fcs/", "ap/", "atmosphere/wind-")
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,9 +35,17 @@ class _Ramp:
 
 
 class InputPlayer:
-    """Plays inputs in order of time. Raises InputError for a property that is missing or read-only and for bad numbers."""
+    """Plays inputs in order of time.
+
+    A property node lets C++ exceptions through, which end the process; setting by name turns them
+    into Python's, at nine times the cost. So only what JSBSim stores without acting on it is set by
+    its node.
+
+    Raises InputError for a property that is missing or cannot be set, and for bad numbers.
+    """
 
     def __init__(self, inputs: Iterable[TimedInput], fdm: jsbsim.FGFDMExec) -> None:
+        self._fdm = fdm
         events = sorted(inputs, key=lambda event: event.time)
         self._nodes = {event.property: _writable_node(event.property, fdm) for event in events}
         for event in events:
@@ -44,7 +54,10 @@ class InputPlayer:
         self._ramps: dict[str, _Ramp] = {}
 
     def play(self, time: float) -> bool:
-        """Set what is due at `time` (s, never going back); True when something was set."""
+        """Set what is due at `time` (s, never going back); True when something was set.
+
+        Raises VehicleError when JSBSim fails by it, as a trim may.
+        """
         while self._due and self._due[-1].time <= time + _TIME_TOLERANCE:
             event = self._due.pop()
             self._move(event.time)
@@ -56,21 +69,26 @@ class InputPlayer:
 
     def _move(self, time: float) -> None:
         for name, ramp in list(self._ramps.items()):
-            ramp.node.set_double_value(ramp.value(time))
+            self._set(name, ramp, time)
             if time >= ramp.event.time + ramp.event.ramp - _TIME_TOLERANCE:
                 del self._ramps[name]
 
+    def _set(self, name: str, ramp: _Ramp, time: float) -> None:
+        value = ramp.value(time)
+        if name.startswith(_STORED):
+            ramp.node.set_double_value(value)
+            return
+        try:
+            self._fdm[name] = value
+        except JSBSIM_ERRORS as error:
+            raise VehicleError(time, f"input on {name!r} = {value:g}: JSBSim: {one_line(error)}") from error
+
 
 def _writable_node(name: str, fdm: jsbsim.FGFDMExec) -> jsbsim.FGPropertyNode:
-    """The property's node; InputError with the nearest name when it is missing, or when JSBSim would ignore what is set.
-
-    JSBSim itself creates a missing property in silence, so that a misspelt control does nothing.
-    """
-    node = fdm.get_property_manager().get_node(name) if is_property_name(name) else None
-    if not node:
-        raise InputError(f"unknown JSBSim property {name!r}{suggestion(name, writable_names(fdm))}")
-    if not node.get_attribute(jsbsim.Attribute.WRITE):
-        raise InputError(f"JSBSim property {name!r} can be read but not set")
+    objection = property_objection(name, fdm)
+    node = None if objection else fdm.get_property_manager().get_node(name)
+    if node is None:
+        raise InputError(objection)
     return node
 
 

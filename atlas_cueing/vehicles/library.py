@@ -8,6 +8,17 @@ from pathlib import Path
 
 import jsbsim
 
+# What JSBSim's C++ exceptions become in Python; its own jsbsim.BaseError is a RuntimeError.
+JSBSIM_ERRORS = (RuntimeError, ValueError, IndexError, ArithmeticError, MemoryError, OSError)
+TRIM = "simulation/do_simple_trim"
+# Properties that nobody may set, and why; a trim by property only where it is so.
+FORBIDDEN = {
+    TRIM: "a trim of an aircraft whose gear has no three points that make a triangle ends the process",
+    "simulation/do_linearization": "it writes a file",
+    "simulation/write-state-file": "it writes a file",
+    "atmosphere/updownburst/number-of-cells": "it takes memory and time without bound",
+}
+_ROOT_NODE = "/fdm/jsbsim/"  # full names of JSBSim's properties begin with it
 _NODE = r"[A-Za-z_][\w.-]*(\[[0-9]{1,6}\])?"
 _PROPERTY = re.compile(rf"/?{_NODE}(/{_NODE})*", re.ASCII)  # the root may be named
 
@@ -46,3 +57,24 @@ def writable_names(fdm: jsbsim.FGFDMExec) -> list[str]:
     """Names of the loaded model's properties that can be set, without their index when it is 0."""
     entries = (entry.rsplit(" ", 1) for entry in fdm.get_property_catalog())
     return [name.removesuffix("[0]") for name, access in entries if "W" in access]
+
+
+def property_objection(name: str, fdm: jsbsim.FGFDMExec) -> str:
+    """Why nothing can be set by this name in the loaded model, with the nearest name where there is none; else nothing.
+
+    JSBSim itself creates a missing property in silence, so that a misspelt control does nothing.
+    """
+    node = fdm.get_property_manager().get_node(name) if is_property_name(name) else None
+    if not node:
+        return f"unknown JSBSim property {name!r}{suggestion(name, writable_names(fdm))}"
+    if node.get_attribute(jsbsim.Attribute.WRITE):
+        return ""
+    reason = FORBIDDEN.get(node.get_fully_qualified_name().removeprefix(_ROOT_NODE))
+    return (
+        f"JSBSim property {name!r} must not be set: {reason}" if reason else f"JSBSim property {name!r} can be read but not set"
+    )
+
+
+def one_line(error: BaseException) -> str:
+    """An exception's text on one line."""
+    return " ".join(str(error).split())

@@ -1,6 +1,7 @@
 """A JSBSim instance with a script or an aircraft loaded, or an InputError that says why not."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from xml.etree.ElementTree import Element
@@ -9,15 +10,24 @@ import jsbsim
 
 from ..errors import InputError, OutputError
 from ..printable import utf8
-from .flights import DEFAULT_RATE_HZ, MAX_RATE_HZ, MIN_RATE_HZ, AircraftFlight, ScriptFlight
+from .flights import DEFAULT_RATE_HZ, MAX_RATE_HZ, MIN_RATE_HZ, AircraftFlight, InitialConditions, ScriptFlight
+from .ground import has_flat_gear
 from .jsbsim_log import JsbsimLog, capture
-from .library import is_property_name, own_aircraft, root, suggestion, writable_names
+from .library import (
+    FORBIDDEN,
+    JSBSIM_ERRORS,
+    TRIM,
+    is_property_name,
+    one_line,
+    property_objection,
+    root,
+    suggestion,
+    writable_names,
+)
 from .private_copy import copy_aircraft, copy_script
+from .user_models import SHARED, aircraft_objection, plain_name
 
-# What JSBSim's C++ exceptions become in Python; its own jsbsim.BaseError is a RuntimeError.
-JSBSIM_ERRORS = (RuntimeError, ValueError, IndexError, ArithmeticError, MemoryError, OSError)
 LATEST_END = 1e6  # s, of a script; the longest own one, a balloon's, goes on for a week (6e5 s)
-_WRITERS = ("simulation/do_linearization", "simulation/write-state-file")  # setting them writes a file
 _OUTPUT = "simulation/output/"  # properties of the outputs that were left out; scripts may go on setting them
 _SILENT = 0  # debug level: no reports on what was loaded
 
@@ -35,9 +45,9 @@ def load(flight: ScriptFlight | AircraftFlight) -> jsbsim.FGFDMExec:
         fdm.set_debug_level(_SILENT)
         fdm.set_aircraft_path(str(Path(folder) / "aircraft"))
         if isinstance(flight, ScriptFlight):
-            _load_script(fdm, flight.script, Path(folder), log)
+            _load_script(fdm, flight, Path(folder), log)
         else:
-            _load_aircraft(fdm, flight.aircraft, Path(folder), log)
+            _load_aircraft(fdm, flight, Path(folder), log)
             rate_hz = DEFAULT_RATE_HZ if rate_hz is None else rate_hz
     _disarm(fdm)
     if rate_hz is not None:
@@ -52,21 +62,34 @@ def _refuse_names(*folders: str) -> None:
             raise OutputError(f"folder {folder}: its name is not UTF-8, which JSBSim needs; set TMPDIR")
 
 
-def _load_script(fdm: jsbsim.FGFDMExec, script: Path, folder: Path, log: JsbsimLog) -> None:
-    tree, copy = copy_script(script, folder)
+def _load_script(fdm: jsbsim.FGFDMExec, flight: ScriptFlight, folder: Path, log: JsbsimLog) -> None:
+    script = flight.script
+    tree, copy = copy_script(script, folder, flight.models)
     for run in tree.iter("run"):
         _check_step(run.get("dt", ""), script)
         _check_end(run.get("end", ""), script)
-    originals = {str(copy): str(script), f"{folder}/aircraft": f"{root()}/aircraft", str(folder): str(script.parent)}
+    originals = {str(copy): str(script), **_point_to_copies(fdm, folder, flight.models), str(folder): str(script.parent)}
     _try(lambda: fdm.load_script(str(copy)), str(script), originals, log)
     _check_names(tree, script, fdm)
 
 
-def _load_aircraft(fdm: jsbsim.FGFDMExec, aircraft: str, folder: Path, log: JsbsimLog) -> None:
-    if aircraft not in own_aircraft():
-        raise InputError(f"no aircraft {aircraft!r} in JSBSim{suggestion(aircraft, own_aircraft())}")
-    copy_aircraft(aircraft, folder)
-    _try(lambda: fdm.load_model(aircraft), f"aircraft {aircraft!r}", {str(folder): str(root())}, log)
+def _load_aircraft(fdm: jsbsim.FGFDMExec, flight: AircraftFlight, folder: Path, log: JsbsimLog) -> None:
+    objection = aircraft_objection(flight.aircraft, flight.models)
+    if objection:
+        raise InputError(objection)
+    copy_aircraft(flight.aircraft, folder, flight.models)
+    originals = _point_to_copies(fdm, folder, flight.models)
+    name = plain_name(flight.aircraft)
+    _try(lambda: fdm.load_model(name), f"aircraft {flight.aircraft!r}", originals, log)
+
+
+def _point_to_copies(fdm: jsbsim.FGFDMExec, folder: Path, models: Path | None) -> dict[str, str]:
+    """Let JSBSim look at the copies of a user's engines and systems; gives for each folder what it is a copy of."""
+    if not (folder / SHARED[0]).exists():
+        return {f"{folder}/aircraft": f"{root()}/aircraft"}
+    fdm.set_engine_path(str(folder / SHARED[0]))
+    fdm.set_systems_path(str(folder / SHARED[1]))
+    return {f"{folder}/{name}": f"{models}/{name}" for name in ("aircraft", *SHARED)}
 
 
 def _try(load: Callable[[], bool], what: str, originals: dict[str, str], log: JsbsimLog) -> None:
@@ -82,8 +105,8 @@ def _try(load: Callable[[], bool], what: str, originals: dict[str, str], log: Js
 
 
 def _disarm(fdm: jsbsim.FGFDMExec) -> None:
-    """Make JSBSim ignore what would write a file into the working directory."""
-    for name in _WRITERS:
+    """Make JSBSim ignore what would write a file into the working directory, never end, or end the process."""
+    for name in FORBIDDEN if has_flat_gear(fdm) else [name for name in FORBIDDEN if name != TRIM]:
         node = fdm.get_property_manager().get_node(name)
         if node:
             node.set_attribute(jsbsim.Attribute.WRITE, False)
@@ -126,6 +149,15 @@ def _checked(rate_hz: float) -> float:
     return rate_hz
 
 
-def one_line(error: BaseException) -> str:
-    """An exception's text on one line."""
-    return " ".join(str(error).split())
+def input_objections(aircraft: str, models: Path | None, names: Iterable[str]) -> dict[str, str]:
+    """Why nothing can be set by each of these properties of an aircraft; only those are given where it is so.
+
+    Raises InputError when the aircraft does not load.
+    """
+    fdm = _loaded(aircraft, models)
+    return {name: objection for name in dict.fromkeys(names) if (objection := property_objection(name, fdm))}
+
+
+@lru_cache(maxsize=4)  # the runs of a sweep have one aircraft, or a few
+def _loaded(aircraft: str, models: Path | None) -> jsbsim.FGFDMExec:
+    return load(AircraftFlight(aircraft, InitialConditions(0.0, 0.0), models=models))

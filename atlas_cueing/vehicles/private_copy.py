@@ -3,7 +3,8 @@
 A script or model may carry `<output>` (a file in the working directory or at any path, UDP or TCP) and `<input port>` (listens
 on all interfaces). Switching them off after loading is too late: file and socket are open by then. So JSBSim is given copies
 without them, in a private folder that is gone before the first step. A script names files only by plain names: its aircraft is
-one of JSBSim's own, its initial conditions lie beside it or with the aircraft, and no element refers to any other file.
+one of JSBSim's own or the user's, its initial conditions lie beside it or with the aircraft, and no element refers to any other
+file. An aircraft of the user's own is copied with the files that it names, none of which lead out of the user's folder.
 """
 
 import os
@@ -12,32 +13,43 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 from ..errors import InputError
-from .library import own_aircraft, root, suggestion
+from .library import own_aircraft, root
+from .user_models import (
+    MAX_USERS_BYTES,
+    SHARED,
+    aircraft_objection,
+    is_plain_reference,
+    plain_name,
+    user_files,
+    user_model,
+)
 
 MAX_FILE_BYTES = 20_000_000  # the largest own file has 0.4 MB
-MAX_USERS_BYTES = 1 << 20  # of a user's file, which goes along with the log; the largest own script has 11 kB
 MAX_DEPTH = 100  # of nested elements; own files stay below 20, and JSBSim's parser overruns its stack at some 100,000
 _PORTS = ("output", "input")  # as children of the root; deeper ones are names of signals in control systems
 SCRIPT_COPY = "script copy.xml"  # with a space, which no file of initial conditions has
 _PLAIN_NAME = re.compile(r"[\w.-]+", re.ASCII)
 
 
-def copy_script(script: Path, folder: Path) -> tuple[ET.Element, Path]:
-    """Write a quiet copy of the script and of its aircraft's folder; gives the script's tree and the copy's path.
+def copy_script(script: Path, folder: Path, models: Path | None = None) -> tuple[ET.Element, Path]:
+    """Write a quiet copy of the script and of its aircraft; gives the script's tree and the copy's path.
 
-    Raises InputError when the script is unreadable, not a script, or asks for an aircraft that JSBSim does not ship.
+    models: folder of a user's own aircraft. Raises InputError when the script is unreadable, not a script, or asks for an
+    aircraft that is neither JSBSim's nor there.
     """
     tree = _read(script, "runscript")
     _leave_out_ports(tree)
     _refuse_files(tree, script)
     use = _use(tree, script)
     aircraft, initial = use.get("aircraft", ""), use.get("initialize", "")
-    if aircraft not in own_aircraft():
-        raise InputError(f"{script}: no aircraft {aircraft!r} in JSBSim{suggestion(aircraft, own_aircraft())}")
+    objection = aircraft_objection(aircraft, models)
+    if objection:
+        raise InputError(f"{script}: {objection}")
     if initial and not _PLAIN_NAME.fullmatch(initial):
         raise InputError(f"{script}: initialize = {initial!r}, allowed: a file's name of letters, digits, '.', '_', '-'")
     own_initial = beside(script, initial)
-    copy_aircraft(aircraft, folder)
+    copy_aircraft(aircraft, folder, models, initial)
+    use.set("aircraft", plain_name(aircraft))
     if own_initial:
         conditions = _read(own_initial, "initialize")
         _refuse_files(conditions, own_initial)
@@ -55,22 +67,21 @@ def beside(script: Path, initialize: str) -> Path | None:
         return None
 
 
-def read_users(path: Path) -> bytes:
-    """A user's file as it is. Raises InputError when it cannot be read or is larger than MAX_USERS_BYTES."""
-    try:
-        with path.open("rb") as file:
-            content = file.read(MAX_USERS_BYTES + 1)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
-    if len(content) > MAX_USERS_BYTES:
-        raise InputError(f"{path}: too large, allowed: size <= {MAX_USERS_BYTES} bytes")
-    return content
+def copy_aircraft(aircraft: str, folder: Path, models: Path | None = None, initialize: str = "") -> Path:
+    """Write a quiet copy of an aircraft's model and of what it needs; gives the folder of all aircraft.
+
+    It is one of JSBSim's own, or the user's in `models`, together with its initial conditions if a script asks for some.
+    """
+    if models and user_model(aircraft, models):
+        _copy_users(aircraft, folder, models, initialize)
+    else:
+        _copy_own(own_aircraft()[aircraft], folder)
+    return folder / "aircraft"
 
 
-def copy_aircraft(aircraft: str, folder: Path) -> Path:
-    """Write a quiet copy of an own aircraft's model, with links to the files beside it; gives the folder of all aircraft."""
-    model = own_aircraft()[aircraft]
-    copies = folder / "aircraft" / aircraft
+def _copy_own(model: Path, folder: Path) -> None:
+    """The model, with links to the files beside it."""
+    copies = folder / "aircraft" / model.stem
     copies.mkdir(parents=True)
     for entry in model.parent.iterdir():
         if entry != model:
@@ -78,7 +89,32 @@ def copy_aircraft(aircraft: str, folder: Path) -> Path:
     tree = _read(model, "fdm_config")
     _leave_out_ports(tree)
     _write(tree, copies / model.name)
-    return copies.parent
+
+
+def _copy_users(aircraft: str, folder: Path, models: Path, initialize: str) -> None:
+    """The user's files, and links to JSBSim's own engines and systems where the user has none of that name."""
+    model = user_model(aircraft, models)
+    for relative, path in user_files(aircraft, models, initialize).items():
+        tree = _read(path, "fdm_config" if path == model else "")
+        _leave_out_ports(tree)
+        _check_references(tree, path)
+        (folder / relative).parent.mkdir(parents=True, exist_ok=True)
+        _write(tree, folder / relative)
+    for shared in SHARED:
+        (folder / shared).mkdir(exist_ok=True)
+        for entry in (root() / shared).iterdir():
+            if not (folder / shared / entry.name).exists():
+                (folder / shared / entry.name).symlink_to(os.path.realpath(entry))
+
+
+def _check_references(tree: ET.Element, path: Path) -> None:
+    for element in tree.iter():
+        reference = element.attrib.get("file", "").strip()
+        if reference and not is_plain_reference(reference):
+            raise InputError(
+                f"{path}: <{element.tag} file={reference!r}>, allowed: a path of plain names that leads "
+                "nowhere else, of letters, digits, ' ', '.', '_', '-'"
+            )
 
 
 def _leave_out_ports(tree: ET.Element) -> None:
@@ -106,7 +142,7 @@ def _write(tree: ET.Element, path: Path) -> Path:
 
 
 def _read(path: Path, root_tag: str) -> ET.Element:
-    """Parse a file of the given root element; InputError says what is wrong with it otherwise."""
+    """Parse a file of the given root element (of any, if it is empty); InputError says what is wrong with it otherwise."""
     try:
         size, most = path.stat().st_size, MAX_FILE_BYTES if path.is_relative_to(root()) else MAX_USERS_BYTES
         if size > most:
@@ -115,7 +151,7 @@ def _read(path: Path, root_tag: str) -> ET.Element:
         tree: ET.Element = ET.parse(path, parser).getroot()  # noqa: S314
     except (OSError, ET.ParseError, ValueError, LookupError) as error:
         raise InputError(f"{path}: not a readable XML file: {error}") from error
-    if tree.tag != root_tag:
+    if root_tag and tree.tag != root_tag:
         raise InputError(f"{path}: root element is <{tree.tag}>, must be <{root_tag}>")
     return tree
 

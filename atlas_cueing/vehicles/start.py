@@ -1,18 +1,21 @@
 """The first state: initial conditions, engines, inputs at time 0, trim."""
 
-from math import inf, pi
+from dataclasses import replace
+from math import degrees, inf, pi
 
 import jsbsim
 
-from ..errors import InputError, VehicleError
-from .flights import AircraftFlight, InitialConditions
+from ..errors import InputError, StartError, VehicleError
+from .flights import AircraftFlight, InitialConditions, TimedInput
+from .ground import check_standing, stand_objection
 from .inputs import InputPlayer
-from .loading import JSBSIM_ERRORS, one_line
+from .library import JSBSIM_ERRORS, one_line
 from .readings import METRES_PER_FOOT
 
 STANDING_AIRSPEED = 1.0  # m/s; a trim slower than this ...
 STANDING_HEIGHT = 10.0  # m above ground; ... and lower than this settles the aircraft on its gear
 _ALL_ENGINES = -1
+_TURBULENCE = ("atmosphere/turb", "atmosphere/cosine-gust/")
 _SETTLING_RUNS = 2  # runs of zero length until an input shows in the pilot's force, which lags by one
 
 # field, least, greatest
@@ -30,13 +33,10 @@ _BOUNDS = (
 def initialise(fdm: jsbsim.FGFDMExec) -> None:
     """Bring a loaded model to the state of its initial conditions, a script to its first state.
 
-    Raises InputError when the model cannot run and VehicleError at time 0 when its own initial conditions ask for a trim
-    that fails.
+    Raises InputError when the model cannot run.
     """
     try:
         fdm.run_ic()
-    except jsbsim.TrimFailureError as error:
-        raise VehicleError(0.0, f"no trim at the initial conditions: {one_line(error)}") from error
     except JSBSIM_ERRORS as error:
         raise InputError(f"{fdm.get_model_name()}: JSBSim cannot initialise it: {one_line(error)}") from error
 
@@ -44,24 +44,40 @@ def initialise(fdm: jsbsim.FGFDMExec) -> None:
 def start_aircraft(fdm: jsbsim.FGFDMExec, flight: AircraftFlight) -> InputPlayer:
     """Bring a loaded aircraft to its first state; gives the player of the inputs still to come.
 
-    Inputs at time 0 act on the trim (gear, flaps, wind) and are set again after it, so that they win over its controls.
-    Raises InputError for a bad number or property and VehicleError at time 0 when the aircraft cannot be trimmed.
+    Inputs at time 0 act on the trim (gear, flaps, wind) and are set again after it, so that they
+    win over its controls; turbulence, which has no equilibrium, and in JSBSim no value at rest, is
+    set one step later.
+
+    Raises InputError for a bad number or property, and StartError when the aircraft cannot be
+    trimmed or starts in the ground (see `ground.py`).
     """
     initial = flight.initial
     _check(initial)
-    player = InputPlayer(flight.inputs, fdm)
+    inputs = [_after_start(event, fdm.get_delta_t()) for event in flight.inputs]
+    player = InputPlayer(inputs, fdm)
     _set(fdm, initial)
     initialise(fdm)
     if initial.engines_running:
         fdm.get_propulsion().init_running(_ALL_ENGINES)
-    moved = player.play(0.0)
-    if initial.trim:
-        _trim(fdm, initial)
-        player = InputPlayer(flight.inputs, fdm)
-        player.play(0.0)
+    try:
+        if initial.trim:
+            InputPlayer(inputs, fdm).play(0.0)
+            _trim(fdm, flight)
+        moved = player.play(0.0)
+    except VehicleError as error:
+        raise StartError(f"{error.reason}; allowed at time 0: what does not fail there") from error
     if moved:
         _settle(fdm)
+    check_standing(fdm, initial)
     return player
+
+
+def _after_start(event: TimedInput, dt: float) -> TimedInput:
+    return replace(event, time=max(event.time, dt)) if _is_turbulence(event) else event
+
+
+def _is_turbulence(event: TimedInput) -> bool:
+    return event.property.lstrip("/").startswith(_TURBULENCE)
 
 
 def _check(initial: InitialConditions) -> None:
@@ -83,14 +99,32 @@ def _set(fdm: jsbsim.FGFDMExec, initial: InitialConditions) -> None:
     fdm["ic/vt-fps"] = initial.airspeed / METRES_PER_FOOT
 
 
-def _trim(fdm: jsbsim.FGFDMExec, initial: InitialConditions) -> None:
+def _trim(fdm: jsbsim.FGFDMExec, flight: AircraftFlight) -> None:
+    initial = flight.initial
     height = METRES_PER_FOOT * fdm["position/h-agl-ft"]
     standing = initial.airspeed < STANDING_AIRSPEED and height < STANDING_HEIGHT
     mode = jsbsim.TrimMode.GROUND if standing else jsbsim.TrimMode.FULL
     try:
-        fdm.do_trim(mode)
+        reason = stand_objection(fdm) if standing else ""
+        if not reason:
+            fdm.do_trim(mode)
     except JSBSIM_ERRORS as error:
-        raise VehicleError(0.0, f"no {mode.name.lower()} trim at the initial conditions: {one_line(error)}") from error
+        reason = f"JSBSim: {one_line(error)}"
+    if reason:
+        failed = f"no {mode.name.lower()} trim of {flight.aircraft!r}"
+        raise StartError(f"initial.trim = true: {failed} {_advice(flight, standing, reason)}")
+
+
+def _advice(flight: AircraftFlight, standing: bool, reason: str) -> str:
+    """Under which conditions the trim failed, and what to do."""
+    initial = flight.initial
+    where = f"at altitude_m = {initial.altitude:g}, airspeed_m_s = {initial.airspeed:g}"
+    where += f", pitch_deg = {degrees(initial.pitch):g}"
+    at_start = {event.property for event in flight.inputs if event.time == 0.0 and not _is_turbulence(event)}
+    acting = f" (at time 0 these act on the trim: {', '.join(sorted(at_start))})" if at_start else ""
+    steady = "a start above the ground" if standing else "an altitude and airspeed of steady flight"
+    later = f", later inputs{acting}" if acting else ""
+    return f"{where}: {reason}; allowed: {steady}{later}, or trim = false"
 
 
 def _settle(fdm: jsbsim.FGFDMExec) -> None:

@@ -3,9 +3,9 @@ from pathlib import Path
 
 import pytest
 
-from atlas_cueing.errors import InputError, SlipConditionError
+from atlas_cueing.errors import InputError, ScenarioError, SlipConditionError
 from atlas_cueing.rotation import IDENTITY, ZERO
-from atlas_cueing.scenario import Scenario, build, load_scenario, prepare
+from atlas_cueing.scenario import Scenario, build, load_scenario, prepare, presets
 from atlas_cueing.scenario.cueing import METHODS
 from atlas_cueing.signals import STANDARD_GRAVITY, VehicleState
 from atlas_cueing.vehicles import FlownAhead, RecordedVehicle
@@ -57,15 +57,32 @@ def test_two_pipelines_share_nothing(tmp_path: Path) -> None:
     assert build(scenario, 0.01).step(RESTING) == expected
 
 
-def test_a_singular_platform_is_refused(tmp_path: Path) -> None:
+def test_a_singular_platform_is_refused_with_its_file(tmp_path: Path) -> None:
     scenario = loaded(tmp_path, *(f"platform.wheel.{i}.contact={contact}" for i, contact in enumerate(FLAT)))
-    with pytest.raises(SlipConditionError, match=r"platform 'atlas-2.9m' .*determinant"):
+    told = r"^--set: wheel: platform 'atlas-2.9m' .*determinant .*condition number (infinite|\d)"
+    with pytest.raises(SlipConditionError, match=told):
         build(scenario, 0.01)
 
 
-def test_limits_that_leave_no_room_are_refused(tmp_path: Path) -> None:
-    scenario = loaded(tmp_path, "platform.stage_limits.travel_m=1e-6")
-    with pytest.raises(InputError, match=r"scenario 'short' on platform 'atlas-2.9m' at 100 Hz: "):
+def test_limits_that_leave_no_room_are_refused_with_file_and_key(tmp_path: Path) -> None:
+    scenario = loaded(tmp_path, "platform.stage_limits.travel_m=1e-6", "platform.wheel_limits.speed_rad_s=[1,1e-6,1]")
+    with pytest.raises(ScenarioError) as caught:
+        build(scenario, 0.01)
+    assert str(caught.value).splitlines() == [
+        "--set: platform.wheel_limits.speed_rad_s = 1e-06: "
+        "allowed: value > 0.0075, which is jerk_rad_s3 (600) dt^2 / 8 at 100 Hz",
+        "--set: platform.stage_limits.travel_m = 1e-06: "
+        "allowed: value > 7.5e-05, which is acceleration_m_s2 (6) dt^2 / 8 at 100 Hz",
+        "--set: platform.stage_limits.travel_m = 1e-06: "
+        "allowed: value > 6.25e-05, which is acceleration_m_s2 (5) dt^2 / 8 at 100 Hz",
+    ]
+
+
+def test_limits_that_leave_no_room_name_the_platform_file(tmp_path: Path) -> None:
+    text = presets()["atlas-2.9m"].read_text()
+    (tmp_path / "mine.toml").write_text(text.replace("speed_m_s = [1.5, 1.5, 1.2]", "speed_m_s = 1e-6"))
+    scenario = loaded(tmp_path, "platform.file=mine.toml")
+    with pytest.raises(ScenarioError, match=r"mine\.toml: stage_limits\.speed_m_s = 1e-06: allowed: value > "):
         build(scenario, 0.01)
 
 

@@ -134,7 +134,7 @@ def test_a_platform_is_the_same_after_another_was_made_of_its_file() -> None:
     assert known.platform(file, {}) == (load_platform("atlas-2.9m"), [])
 
 
-@pytest.mark.parametrize("bad", ["", "a/b", "..", "x" * 101, "sp ace"])
+@pytest.mark.parametrize("bad", ["", "a/b", "..", "x" * 101, "sp ace", "a\\u001b"])
 def test_a_name_must_fit_a_file(refused: Refused, bad: str) -> None:
     (line,) = refused(SCRIPT.replace('"short"', f'"{bad}"'))
     assert line.startswith("bad.toml: name = ")

@@ -6,6 +6,7 @@ import tomllib
 from math import pi
 from pathlib import Path
 from typing import Any
+from unicodedata import normalize
 
 import numpy as np
 import pytest
@@ -108,10 +109,24 @@ def test_refused(table: str, key: str, bad: object, message: str) -> None:
         Platform.model_validate(data)
 
 
-@pytest.mark.parametrize("name", ["", "a/b", "../x", ".hidden", "a b", "x" * 101, "é", 3])
+BAD_NAMES = ["", "a/b", "../x", ".hidden", "a b", "x" * 101, "é" * 101, "日" * 67, 3, "a\x1b[2J", "a\nb", "a\0"]
+INVISIBLE = ["a\u202eb", "a\u200bb", "\u0301a", "a\u00adb", "a\ufeff", "½", "a\ue000", "😀", "a\u2028b", "a<b", "a\u0378"]
+
+
+@pytest.mark.parametrize("name", BAD_NAMES + INVISIBLE)
 def test_names_that_are_no_file_names(name: object) -> None:
-    with pytest.raises(ValidationError, match="letters, digits"):
+    told = r"letters and digits of any alphabet, .* at most 100 characters and 200 bytes"
+    with pytest.raises(ValidationError, match=told):
         Platform.model_validate(good() | {"name": name})
+
+
+@pytest.mark.parametrize("name", ["atlas-2.9m", "Größe", "платформа", "球体", "प्लेटफ़ॉर्म", "منصة", "x" * 100, "é" * 100])
+def test_names_of_letters_of_any_alphabet(name: str) -> None:
+    assert Platform.model_validate(good() | {"name": name}).name == normalize("NFC", name)
+
+
+def test_names_that_look_the_same_are_the_same() -> None:
+    assert Platform.model_validate(good() | {"name": "Gro\u0308\u00dfe"}).name == "Gr\u00f6\u00dfe"
 
 
 @pytest.mark.parametrize(("zero", "radius"), [(0.0, 0.117), (-0.0, 0.118)])

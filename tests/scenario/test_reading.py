@@ -79,3 +79,18 @@ def test_files_that_cannot_be_read(tmp_path: Path) -> None:
     assert "too large" in refusal(tmp_path / "large")
     (tmp_path / "full").write_bytes(b"#" * LARGEST_FILE)
     assert read_toml(tmp_path / "full") == {}
+
+
+def test_a_byte_order_mark_is_taken_as_if_it_were_not_there(tmp_path: Path) -> None:
+    file = tmp_path / "f.toml"
+    file.write_bytes('\ufeffname = "é"\r\n'.encode())
+    assert read_toml(file) == {"name": "é"}
+    file.write_bytes("\ufeff".encode())
+    assert read_toml(file) == {}
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-be", "utf-16-le"])
+def test_utf_16_is_named(tmp_path: Path, encoding: str) -> None:
+    (tmp_path / "f.toml").write_bytes(('name = "a"' if encoding == "utf-16" else '\ufeffname = "a"').encode(encoding))
+    with pytest.raises(ScenarioError, match="is UTF-16 text, allowed: UTF-8; save it anew"):
+        read_toml(tmp_path / "f.toml")

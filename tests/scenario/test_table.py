@@ -63,9 +63,13 @@ def test_whole(bad: object) -> None:
     assert Inner(count=5).count == 5
 
 
-@pytest.mark.parametrize("bad", ["longer", 3, None, ["word"]])
+@pytest.mark.parametrize("bad", ["longer", None, ["word"], True, HUGE])
 def test_text(bad: object) -> None:
     assert message(word=bad) == "a short word"
+
+
+def test_a_number_for_a_text_is_told_how_it_is_written() -> None:
+    assert message(word=3) == """a short word; as a text: "3", in a shell '"3"'"""
 
 
 @given(st.lists(st.floats(-10.0, 10.0), min_size=3, max_size=3))

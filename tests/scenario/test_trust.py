@@ -31,7 +31,7 @@ def test_it_does_not_fly_without_trust(users: Path) -> None:
 
 def test_it_flies_with_trust(users: Path) -> None:
     trusted = load_scenario(users, trust_models=True)
-    assert trusted.flight == trusted.live_flight == ScriptFlight(users.parent / "mine.xml", None, 0.5)
+    assert trusted.flight == trusted.live_flight == ScriptFlight(users.parent / "mine.xml", None, 0.5, users.parent)
 
 
 def test_all_but_the_flight_can_be_had_without_trust(users: Path) -> None:

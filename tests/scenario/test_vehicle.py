@@ -4,9 +4,9 @@ from pathlib import Path
 import pytest
 
 from atlas_cueing.batch import run_scenario
-from atlas_cueing.errors import InputError
-from atlas_cueing.scenario import RecordedFlight, load_scenario
-from atlas_cueing.scenario.vehicle import Flight, script_beside
+from atlas_cueing.errors import InputError, ScenarioError
+from atlas_cueing.scenario import RecordedFlight, load_scenario, load_variants
+from atlas_cueing.scenario.vehicle import Flight
 from atlas_cueing.vehicles import (
     AircraftFlight,
     FlightgearFlight,
@@ -15,6 +15,7 @@ from atlas_cueing.vehicles import (
     TimedInput,
     own_scripts,
 )
+from atlas_cueing.vehicles.user_models import within
 
 from .conftest import Refused
 from .texts import AIRCRAFT, INITIAL, SCRIPT, SIGNALS, USER_SCRIPT
@@ -67,13 +68,13 @@ def test_script_beside_the_scenario(tmp_path: Path) -> None:
     (tmp_path / "scripts").mkdir()
     script = tmp_path / "scripts" / "mine.xml"
     script.write_text(USER_SCRIPT.format(initial="reset00"))
-    assert load(tmp_path, SCRIPT.replace("c1722", "scripts/mine.xml")) == ScriptFlight(script, None, 0.5)
+    assert load(tmp_path, SCRIPT.replace("c1722", "scripts/mine.xml")) == ScriptFlight(script, None, 0.5, tmp_path)
 
 
 def test_own_name_wins_over_a_file(tmp_path: Path) -> None:
     (tmp_path / "c1722").write_text(USER_SCRIPT)
     assert load(tmp_path, SCRIPT) == ScriptFlight(own_scripts()["c1722"], None, 0.5)
-    assert load(tmp_path, SCRIPT.replace("c1722", "./c1722")) == ScriptFlight(tmp_path / "c1722", None, 0.5)
+    assert load(tmp_path, SCRIPT.replace("c1722", "./c1722")) == ScriptFlight(tmp_path / "c1722", None, 0.5, tmp_path)
 
 
 def test_a_script_outside_the_folder_is_refused(tmp_path: Path, refused: Refused) -> None:
@@ -84,10 +85,74 @@ def test_a_script_outside_the_folder_is_refused(tmp_path: Path, refused: Refused
     (inside / "link.xml").symlink_to(outside)
     (inside / "round.xml").symlink_to(inside / "round.xml")
     (inside / "good.xml").write_text(INITIAL)
-    assert script_beside("good.xml", inside) == inside / "good.xml"
+    assert within(inside, "good.xml") == inside / "good.xml"
     for name in ("../outside.xml", str(outside), "link.xml", "round.xml", "", ".", "missing.xml", "a\0b", "x" * 5000):
-        assert script_beside(name, inside) is None
+        assert within(inside, name) is None
     assert "in the scenario's folder" in refused(SCRIPT.replace("c1722", "../x.xml"))[0]
+
+
+@pytest.mark.parametrize("where", ["file", "--set", "sweep"])
+def test_an_aircraft_named_by_a_number_needs_no_quotes(tmp_path: Path, where: str) -> None:
+    in_file = AIRCRAFT.replace('"c172x"', "737") if where == "file" else AIRCRAFT
+    sweep = "[sweep]\nvehicle.aircraft = [737]" if where == "sweep" else ""
+    (tmp_path / "s.toml").write_text(in_file.split("[[")[0] + '[platform]\npreset = "atlas-1.5m"\n' + sweep)
+    (variant,) = load_variants(tmp_path / "s.toml", ["vehicle.aircraft=737"] if where == "--set" else [])
+    assert variant.scenario.file.vehicle.aircraft == "737"
+    assert 'aircraft = "737"' in variant.scenario.scenario_toml()
+
+
+@pytest.mark.parametrize("bad", ["738", "true", "737.0", "[737]", "-737"])
+def test_a_number_that_names_no_aircraft_is_refused(refused: Refused, bad: str) -> None:
+    (line,) = refused(AIRCRAFT.split("[[")[0] + '[platform]\npreset = "atlas-1.5m"', f"vehicle.aircraft={bad}")
+    assert line.startswith(f"--set: vehicle.aircraft = {bad}: allowed: one of JSBSim's own aircraft, or one in aircraft/NAME")
+
+
+def test_properties_that_cannot_be_set_are_told_with_all_other_mistakes(refused: Refused) -> None:
+    text = AIRCRAFT.replace("altitude_m = 1200", "altitude_m = nan").replace("fcs/elevator-cmd-norm", "fcs/elevatr-cmd-norm")
+    lines = refused(text, "vehicle.input.1.property=velocities/p-rad_sec")
+    assert lines == [
+        "bad.toml: vehicle.initial.altitude_m = nan: allowed: a number, -500 <= value <= 1e+07",
+        "bad.toml: vehicle.input.0.property = 'fcs/elevatr-cmd-norm': "
+        "unknown JSBSim property 'fcs/elevatr-cmd-norm'; did you mean 'fcs/elevator-cmd-norm'?",
+        "--set: vehicle.input.1.property = 'velocities/p-rad_sec': "
+        "JSBSim property 'velocities/p-rad_sec' can be read but not set",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("atmosphere/updownburst/number-of-cells", "must not be set: it takes memory and time without bound"),
+        ("simulation/write-state-file", "must not be set: it writes a file"),
+        ("simulation/dt", "can be read but not set"),
+    ],
+)
+def test_properties_that_harm_are_refused_by_name(refused: Refused, name: str, why: str) -> None:
+    (line,) = refused(AIRCRAFT.replace("fcs/elevator-cmd-norm", name))
+    assert line == f"bad.toml: vehicle.input.0.property = {name!r}: JSBSim property {name!r} {why}"
+
+
+def test_an_aircraft_that_does_not_load_is_a_mistake_of_its_key(refused: Refused) -> None:
+    (line,) = refused(AIRCRAFT.replace("c172x", "blank"))
+    assert line.startswith("bad.toml: vehicle.aircraft = 'blank': ")
+    assert "blank.xml: root element is <FDM_CONFIG>" in line
+
+
+def test_every_aircraft_of_a_sweep_is_asked_for_the_inputs(tmp_path: Path) -> None:
+    (tmp_path / "s.toml").write_text(
+        AIRCRAFT.replace("fcs/aileron-cmd-norm", "ap/attitude_hold") + '[sweep]\nvehicle.aircraft = ["c172x", "ball"]'
+    )
+    with pytest.raises(ScenarioError, match=r"unknown JSBSim property 'ap/attitude_hold'") as caught:
+        load_variants(tmp_path / "s.toml")
+    assert [mistake.key for mistake in caught.value.mistakes] == ["vehicle.input.1.property"]
+    assert load_variants(tmp_path / "s.toml", ["vehicle.aircraft=c172x"])
+
+
+@pytest.mark.parametrize("source", ['"flightger"', '"FlightGear"', "3", "[]", '""'])
+def test_a_wrong_source_is_told_alone(refused: Refused, source: str) -> None:
+    """What does not go with another source follows from it, and is no mistake."""
+    (line,) = refused(FLIGHTGEAR.replace('"flightgear"', f"{source}\nport = 5501\nlog = 'x'\nscript = 'c1722'"))
+    assert line.startswith("bad.toml: vehicle.source = ")
 
 
 def test_near_names_are_given(refused: Refused) -> None:

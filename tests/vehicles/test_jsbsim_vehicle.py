@@ -21,6 +21,7 @@ from atlas_cueing.vehicles import (
     own_scripts,
 )
 from atlas_cueing.vehicles.jsbsim_log import capture
+from atlas_cueing.vehicles.jsbsim_vehicle import MOST_RESETS
 
 from .flying import CRUISE, body_from_north, cessna, event, fly, write_script
 
@@ -212,3 +213,36 @@ def test_wrong_inputs_are_refused_when_built() -> None:
         JsbsimVehicle(AircraftFlight("c712x", CRUISE))
     with pytest.raises(InputError, match="value = nan"):
         JsbsimVehicle(cessna(TimedInput(1.0, "fcs/elevator-cmd-norm", nan)))
+
+
+@pytest.mark.parametrize(("name", "value"), [("simulation/do_simple_trim", -1.0), ("propulsion/set-running", 1e9)])
+def test_an_input_that_jsbsim_throws_at_ends_the_flight_and_not_the_process(name: str, value: float) -> None:
+    vehicle = JsbsimVehicle(cessna(TimedInput(1.0, name, value)))
+    failure = flown_to_failure(vehicle)
+    assert failure.time == 1.0
+    assert f"input on {name!r} = {value:g}: JSBSim: " in failure.reason
+    assert vehicle.state.time == 1.0, "all before it is good"
+
+
+RESET = '<event name="r"{}><condition>simulation/sim-time-sec ge {}</condition><set name="simulation/reset" value="1"/></event>'
+
+
+@pytest.mark.parametrize(("persistent", "time"), [("", 1.0), (' persistent="true"', 0.05), (' continuous="true"', 0.5)])
+def test_a_script_that_resets_again_and_again_fails(persistent: str, time: float, tmp_path: Path) -> None:
+    script = write_script(tmp_path / "s.xml", RESET.format(persistent, time))
+    failure = flown_to_failure(JsbsimVehicle(ScriptFlight(script)))
+    assert f"clock back more than {MOST_RESETS} times (simulation/reset), so its end never comes" in failure.reason
+    assert failure.time <= (MOST_RESETS + 1) * (time + 0.03)
+
+
+def test_a_script_may_reset_and_come_to_its_end() -> None:
+    """One of JSBSim's own does: 50 s, a reset, and the 40 s that it states."""
+    vehicle = JsbsimVehicle(script("c172_cruise_8K"))
+    while vehicle.advance():
+        pass
+    assert vehicle.state.time == pytest.approx(90.0, abs=0.1)
+
+
+def test_an_aircraft_may_reset_as_often_as_it_likes_within_its_duration() -> None:
+    resets = [TimedInput(0.1 * k, "simulation/reset", 1.0) for k in range(1, 15)]
+    assert fly(JsbsimVehicle(cessna(*resets)))[-1].time == 2.0

@@ -8,11 +8,10 @@ from atlas_cueing.vehicles import own_aircraft, own_scripts
 from atlas_cueing.vehicles.private_copy import (
     MAX_DEPTH,
     MAX_FILE_BYTES,
-    MAX_USERS_BYTES,
     copy_aircraft,
     copy_script,
-    read_users,
 )
+from atlas_cueing.vehicles.user_models import MAX_USERS_BYTES, read_users
 
 from .flying import event, write_script
 

@@ -4,7 +4,7 @@ from math import cos, inf, nan, radians, sin
 import numpy as np
 import pytest
 
-from atlas_cueing.errors import InputError, VehicleError
+from atlas_cueing.errors import InputError
 from atlas_cueing.rotation import norm, rotate, to_euler
 from atlas_cueing.vehicles import AircraftFlight, InitialConditions, JsbsimVehicle, TimedInput
 from atlas_cueing.vehicles.loading import load
@@ -69,11 +69,36 @@ def test_trim_on_the_ground_settles_on_the_gear() -> None:
     assert max(norm(state.w_NB_B) for state in states) < 0.01
 
 
-def test_a_trim_that_fails_is_a_failed_vehicle_at_time_zero() -> None:
-    slow = replace(CRUISE, airspeed=10.0)
-    with pytest.raises(VehicleError, match="no full trim at the initial conditions") as caught:
-        JsbsimVehicle(cessna(initial=slow))
-    assert caught.value.time == 0.0
+def test_a_trim_that_fails_is_refused_with_where_it_was_tried_and_what_acted_on_it() -> None:
+    flaps, rudder = TimedInput(0.0, "fcs/flap-cmd-norm", 1.0), TimedInput(0.5, "fcs/rudder-cmd-norm", 1.0)
+    with pytest.raises(InputError) as caught:
+        JsbsimVehicle(cessna(flaps, rudder, initial=replace(CRUISE, airspeed=10.0)))
+    told = str(caught.value)
+    assert told.startswith(
+        "initial.trim = true: no full trim of 'c172x' at altitude_m = 1500, airspeed_m_s = 10, pitch_deg = 0"
+    )
+    assert "at time 0 these act on the trim: fcs/flap-cmd-norm)" in told
+    assert told.endswith("or trim = false")
+
+
+@pytest.mark.parametrize("trim", [True, False])
+def test_turbulence_from_time_zero_begins_with_the_second_state_and_flies(trim: bool) -> None:
+    inputs = (
+        TimedInput(0.0, "atmosphere/turb-type", 4.0),
+        TimedInput(0.0, "atmosphere/turbulence/milspec/windspeed_at_20ft_AGL-fps", 75.0),
+        TimedInput(0.0, "atmosphere/turbulence/milspec/severity", 7.0),
+        TimedInput(0.0, "fcs/flap-cmd-norm", 0.5),
+    )
+    initial = replace(CRUISE, trim=trim)
+    rough, calm = (fly(JsbsimVehicle(cessna(*some, initial=initial))) for some in (inputs, inputs[3:]))
+    assert rough[0] == calm[0]
+    assert max(norm(state.w_NB_B) for state in rough) > max(norm(state.w_NB_B) for state in calm) + 0.01
+
+
+@pytest.mark.parametrize("value", [2.0, 1e9])
+def test_an_input_at_time_zero_that_jsbsim_cannot_take_is_refused(value: float) -> None:
+    with pytest.raises(InputError, match=r"input on 'simulation/do_simple_trim' = .*: JSBSim: .*allowed at time 0"):
+        JsbsimVehicle(cessna(TimedInput(0.0, "simulation/do_simple_trim", value), initial=replace(CRUISE, trim=False)))
 
 
 def test_an_aircraft_that_cannot_be_initialised_is_refused() -> None:
