@@ -1,38 +1,21 @@
-"""The compiled build: made as `pip install` makes it, and bit for bit the same as the source."""
+"""A compiled wheel computes the same bits; one that cannot be compiled is Python and says why."""
 
 import json
 import os
-import shutil
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from building import PROJECT, build, build_wheel, version_of
 
-PROJECT = Path(__file__).resolve().parent.parent
+sys.path.append(str(PROJECT / "tools"))
+import build_compiled
+
 PROBE = Path(__file__).with_name("compiled_probe.py")
-NEEDED = ("atlas_cueing", "tools", "pyproject.toml", "README.md")
-pytestmark = pytest.mark.skipif(shutil.which(os.environ.get("CC", "cc")) is None, reason="needs a C compiler")
-
-
-def install(folder: Path, compile_it: str) -> tuple[Path, str]:
-    """Install a copy of the sources into a folder of their own; what pip said."""
-    source, target = folder / "source", folder / f"installed-{compile_it}"
-    if not source.exists():
-        source.mkdir()
-        for name in NEEDED:
-            copy = shutil.copytree if (PROJECT / name).is_dir() else shutil.copy
-            copy(PROJECT / name, source / name)
-    pip = [sys.executable, "-m", "pip", "install", "--verbose", "--no-deps", "--disable-pip-version-check"]
-    done = subprocess.run(
-        [*pip, "--target", str(target), str(source)],
-        env={**os.environ, "ATLAS_CUEING_COMPILE": compile_it},
-        capture_output=True,
-        text=True,
-        timeout=900,
-    )
-    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
-    return target, done.stdout + done.stderr
+OBSTACLE = build_compiled.obstacle()
+needs_a_compiler = pytest.mark.skipif(bool(OBSTACLE), reason=OBSTACLE)
 
 
 def probe(folder: Path, build: Path | None) -> dict[str, str]:
@@ -40,22 +23,98 @@ def probe(folder: Path, build: Path | None) -> dict[str, str]:
     folder.mkdir()
     environment = {**os.environ, **({"PYTHONPATH": str(build)} if build else {})}
     done = subprocess.run(
-        [sys.executable, str(PROBE), str(folder)], env=environment, cwd=folder, capture_output=True, text=True, timeout=600
+        [sys.executable, str(PROBE), str(folder)],
+        env=environment,
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=600,
     )
     assert done.returncode == 0, done.stderr[-3000:]
     found: dict[str, str] = json.loads(done.stdout)
     return found
 
 
-def test_compiled_code_computes_the_same_bits(tmp_path: Path) -> None:
-    target, _ = install(tmp_path, "1")
-    compiled, source = probe(tmp_path / "compiled", target), probe(tmp_path / "plain", None)
+def compiled_in(unpacked: Path) -> set[str]:
+    """The modules of an unpacked wheel that are compiled, as paths of their sources."""
+    found = (path.relative_to(unpacked) for path in (unpacked / "atlas_cueing").rglob("*.so"))
+    return {str(path.with_name(path.name.split(".")[0] + ".py")) for path in found}
+
+
+@needs_a_compiler
+def test_compiled_code_computes_the_same_bits(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(PROJECT)
+    unpacked, _ = build_wheel(tmp_path / "wheel")
+    assert compiled_in(unpacked) == set(build_compiled.compiled_modules())
+    assert version_of(unpacked).endswith(", compiled")
+    compiled, source = probe(tmp_path / "compiled", unpacked), probe(tmp_path / "plain", None)
     assert (compiled.pop("code"), source.pop("code")) == (".so", ".py")
     assert compiled == source
     assert len(source) == 6
 
 
-def test_without_a_compiler_it_is_plain_python_and_says_so(tmp_path: Path) -> None:
-    target, said = install(tmp_path, "0")
-    assert not list(target.rglob("*.so"))
-    assert "atlas_cueing: not compiled" in said
+def test_what_runs_every_tick_is_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(PROJECT)
+    modules = {Path(path).stem for path in build_compiled.compiled_modules()}
+    assert {"rotation", "pipeline", "states", "blend", "sphere", "drive", "guard"} <= modules
+    assert not {"__init__", "loop", "recorder", "plots"} & modules
+
+
+@needs_a_compiler
+def test_a_compiler_that_dies_half_way_leaves_nothing_behind(tmp_path: Path) -> None:
+    """It translates a few files, and then no more: none of them is in the wheel."""
+    calls, compiler = tmp_path / "calls", tmp_path / "cc"
+    dies = f'#!/bin/sh\necho >>{calls}\n[ $(wc -l <{calls}) -le 9 ] && exec cc -O0 "$@"\nexit 1\n'
+    compiler.write_text(dies)
+    compiler.chmod(0o755)
+    unpacked, told = build_wheel(tmp_path / "wheel", CC=str(compiler))
+    assert len(calls.read_text()) > 9
+    assert not [*unpacked.rglob("*.so")]
+    assert re.search(f"compiling failed: [Cc]ommand '{compiler}' [^-]*(failed|non-zero)", told)
+    assert "plain Python (compiling failed: " in version_of(unpacked)
+
+
+@pytest.mark.parametrize(
+    ("broken", "settings", "why"),
+    [
+        ("", {"ATLAS_CUEING_COMPILE": "0"}, "ATLAS_CUEING_COMPILE=0"),
+        ("", {"CC": "no_such_compiler -O1"}, "no C compiler (no_such_compiler not found)"),
+        ("raise OSError('not here')", {"CC": "true"}, "compiling failed: OSError: not here"),
+        ("raise SystemExit(1)", {"CC": "true"}, "compiling failed: SystemExit: 1"),
+    ],
+)
+def test_what_cannot_be_compiled_is_plain_python(
+    tmp_path: Path,
+    broken: str,
+    settings: dict[str, str],
+    why: str,
+) -> None:
+    (tmp_path / "mypyc").mkdir()
+    (tmp_path / "mypyc" / "__init__.py").write_text(broken)
+    unpacked, told = build_wheel(tmp_path / "wheel", before=tmp_path, **settings)
+    assert compiled_in(unpacked) == set()
+    assert version_of(unpacked).endswith(f", plain Python ({why})")
+    assert f"atlas_cueing: not compiled: {why}" in told
+
+
+def test_who_insists_on_compiling_is_told_that_it_failed(tmp_path: Path) -> None:
+    (tmp_path / "mypyc").mkdir()
+    (tmp_path / "mypyc" / "__init__.py").write_text("raise ImportError('no mypyc here')")
+    done = build("wheel", tmp_path / "wheel", before=tmp_path, ATLAS_CUEING_COMPILE="1")
+    assert done.returncode != 0
+    assert "no mypyc here" in done.stderr
+    assert not [*(tmp_path / "wheel").iterdir()]
+
+
+def test_without_the_headers_of_python_nothing_is_tried(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(build_compiled, "_header_folders", lambda: [str(tmp_path)])
+    monkeypatch.setenv("CC", "true")
+    assert build_compiled.obstacle().startswith("no Python headers (Python.h;")
+    (tmp_path / "Python.h").touch()
+    assert build_compiled.obstacle() == ""

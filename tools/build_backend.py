@@ -2,15 +2,16 @@
 
 The compiled modules are the same Python source and compute the same bits in a tenth to a half of
 the time. A wheel, and so `pip install .`, is compiled where that works; where it does not, it is
-plain Python, and `atlas-cueing --version` says why. An editable install stays plain Python, so that
-a change of the source is a change of the program. ATLAS_CUEING_COMPILE=0 leaves the compiler out,
-=1 insists on it: a failing compilation then fails the build.
+plain Python, and `atlas-cueing --version` says why. An editable install stays plain Python, so
+that a change of the source is a change of the program. ATLAS_CUEING_COMPILE=0 leaves the compiler
+out, =1 insists on it: a failing compilation then fails the build.
 
 Wheel and sdist are built in a copy of the files that belong to them. So nothing is left in the
 source tree, which may be read-only, and nothing that lies about in it gets into them.
 """
 
 import os
+import re
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import chdir, contextmanager
@@ -44,7 +45,7 @@ __all__ = [
 BELONGING = (".ci", ".gitignore", "README.md", "pyproject.toml")
 BELONGING += ("atlas_cueing", "scenarios", "tests", "tools")
 SETTING = "ATLAS_CUEING_COMPILE"
-# mypy checks the types of what it compiles, which are numpy's too; both change with each major version.
+# mypy checks what it compiles, with types of numpy in it; a major version of either may refuse it
 COMPILING = ["mypy>=1.18,<3", "numpy>=2.0,<3"]
 Settings = Mapping[str, Any] | None
 
@@ -79,7 +80,7 @@ def build_wheel(folder: str, settings: Settings = None, metadata: str | None = N
     if not why_plain:
         try:
             return _build_wheel(folder, settings, metadata)
-        except (Exception, SystemExit) as error:  # of compiler, mypyc, setuptools: all have their own
+        except (Exception, SystemExit) as error:  # compiler, mypyc, setuptools have their own
             if _asked() == "1":
                 raise
             why_plain = _in_few_words(error)
@@ -87,12 +88,12 @@ def build_wheel(folder: str, settings: Settings = None, metadata: str | None = N
     return _build_wheel(folder, settings, metadata, why_plain)
 
 
-def _build_wheel(folder: str, settings: Settings, metadata: str | None, why_plain: str = "") -> str:
-    """Build a compiled wheel, or a plain one that can tell why it is."""
+def _build_wheel(folder: str, settings: Settings, metadata: str | None, why: str = "") -> str:
+    """Build a compiled wheel or, if there is a `why` not, a plain one that can tell it."""
     folder, metadata = os.path.abspath(folder), metadata and os.path.abspath(metadata)
     with _staged():
-        if why_plain:
-            OBSTACLE.write_text(f"{why_plain}\n", "utf-8")
+        if why:
+            OBSTACLE.write_text(f"{why}\n", "utf-8")
             return build_meta.build_wheel(folder, settings, metadata)
         with _setup(ext_modules=extensions(), cmdclass={"build_ext": ParallelBuild}):
             return build_meta.build_wheel(folder, settings, metadata)
@@ -110,9 +111,10 @@ def _asked() -> str:
 
 
 def _in_few_words(error: BaseException) -> str:
-    """Tell of an error what fits on a line."""
-    first = (str(error).splitlines() or [""])[0]
-    return f"compiling failed: {type(error).__name__}: {first}"[:200]
+    """Tell of an error what fits on a line: of a command its name and not its arguments."""
+    told = str(error) if str(error).startswith("error: ") else f"{type(error).__name__}: {error}"
+    short = re.sub(r"\['([^']+)'.*\]", r"\1", told.splitlines()[0].removeprefix("error: "))
+    return f"compiling failed: {short}"[:200]
 
 
 @contextmanager
@@ -130,7 +132,7 @@ def _stage(source: Path, target: Path) -> None:
     if source.is_file():
         copy(source, target)
     elif source.is_dir():
-        kept_out = [line.rstrip("/") for line in Path(".gitignore").read_text("utf-8").splitlines()]
+        kept_out = Path(".gitignore").read_text("utf-8").replace("/\n", "\n").splitlines()
         copytree(source, target, ignore=ignore_patterns(*kept_out))
         for folder in (target, *(path for path in target.rglob("*") if path.is_dir())):
             folder.chmod(0o755)  # also where the source is read-only

@@ -30,7 +30,8 @@ def obstacle() -> str:
     """Tell in a few words why there is no use in trying to compile; "" when there may be."""
     if sys.implementation.name != "cpython":
         return "mypyc compiles for CPython only"
-    compiler, *_ = [*shlex.split(os.environ.get("CC") or sysconfig.get_config_var("CC") or ""), "cc"]
+    command = os.environ.get("CC") or sysconfig.get_config_var("CC") or "cc"
+    compiler = shlex.split(command)[0]
     if which(compiler) is None:
         return f"no C compiler ({compiler} not found)"
     if not any(Path(folder, "Python.h").exists() for folder in _header_folders()):

@@ -1,7 +1,5 @@
 """One scenario, from the vehicle to a finished and evaluated log."""
 
-# mypyc: runs every tick
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.metadata import version

@@ -1,7 +1,5 @@
 """What a user can choose about cueing; defaults carry their source."""
 
-# mypyc: runs every tick
-
 from dataclasses import dataclass
 from math import e, inf, pi, radians
 from typing import TypeAlias

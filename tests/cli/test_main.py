@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from waiting import until
 
-from atlas_cueing import batch
+from atlas_cueing import batch, rotation
 from atlas_cueing.cli import main
 from atlas_cueing.errors import InputError, LogError
 
@@ -26,8 +26,9 @@ def test_the_installed_command_is_this_one() -> None:
 
 
 def test_version(command: Command) -> None:
+    kind = "compiled" if rotation.__file__.endswith(".so") else "plain Python (it runs from its source tree)"
     ended = command("--version")
-    assert (ended.status, ended.out, ended.err) == (0, f"atlas-cueing {version('atlas_cueing')}\n", "")
+    assert (ended.status, ended.out, ended.err) == (0, f"atlas-cueing {version('atlas_cueing')}, {kind}\n", "")
 
 
 @pytest.mark.parametrize("arguments", [["--help"], ["run", "--help"], ["platform", "--help"]])
