@@ -54,7 +54,7 @@ def test_all_lines_of_shell_blocks_and_all_tools_that_are_named() -> None:
         (".venv/bin/atlas-cueing live a.toml", ".venv/bin/atlas-cueing live a.toml --rate 100 --duration 8"),
         (
             ".venv/bin/atlas-cueing live scenarios/live/flightgear.toml --duration 30",
-            ".venv/bin/atlas-cueing live scenarios/live/flightgear.toml --duration 30 --rate 100",
+            ".venv/bin/atlas-cueing live scenarios/live/flightgear.toml --duration 30 --rate 100 --duration 10",
         ),
     ],
 )

@@ -88,6 +88,11 @@ def test_what_is_lacking_is_what_the_extra_asks_for(extra: str, lacking: bool, m
     assert environment._lacking(extra) is lacking
 
 
+def test_a_dependency_that_is_missing_is_lacking_for_every_tool(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(environment.metadata, "requires", lambda _: ["no-such-package>=1; python_version > '3'"])
+    assert environment._lacking("")
+
+
 def test_an_interrupt_leaves_no_traceback(tmp_path: Path) -> None:
     tool = copied(tmp_path, "exit 2")
     for error, shown in (("KeyboardInterrupt", ""), ("BrokenPipeError", ""), ("ValueError('x')", "Traceback")):
