@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 from ..errors import LogError
 from .container import LIBRARY
 from .decoding import FIELDS, Decoder, NumberDecoder, PoseDecoder, StateDecoder, decoder_of
-from .log import Growing, Log, Table
-from .merging import GrowingStates, common_fields, merged, merged_states
+from .log import Growing, Log, Status, Table
+from .merging import States, common_fields, merged, merged_states
 from .message_starts import Starts, message_starts
 from .recorder import RUN_METADATA
 from .schemas import STATUS, TF
+from .wire import Times
 
 T = TypeVar("T")
 OURS = (*FIELDS, STATUS)  # topics that only a log of ours has
@@ -36,7 +37,7 @@ class LogBuilder:
         self._channels: dict[int, Channel] = {}
         self._decoders: dict[int, Decoder | str] = {}
         self._tables: dict[int, Growing] = {}
-        self._states: dict[int, GrowingStates] = {}
+        self._states: dict[int, States] = {}
         self._counts: dict[int, int] = {}
         self._unchecked = False
         self._metadata: dict[str, dict[str, str]] = {}
@@ -64,7 +65,7 @@ class LogBuilder:
         decoder = decoder_of(channel.topic, channel.message_encoding, schema)
         self._decoders[channel.id] = decoder
         if isinstance(decoder, StateDecoder):
-            self._states[channel.id] = GrowingStates()
+            self._states[channel.id] = ([], [])
         elif isinstance(decoder, NumberDecoder | PoseDecoder):
             self._tables[channel.id] = Growing(decoder.fields)
 
@@ -76,8 +77,8 @@ class LogBuilder:
         """Keep a record of metadata."""
         self._metadata[name] = dict(pairs)
 
-    def add_messages(self, data: bytes, index: Starts, *, loose: bool = False, checked: bool = False) -> None:
-        """Read the records of a chunk, or of a stretch of `loose` messages outside of chunks.
+    def add_messages(self, data: bytes, index: Starts, *, checked: bool = False) -> None:
+        """Read the records of a chunk, or of a stretch of messages outside of chunks.
 
         index: offsets of the messages by channel, as the log has them; may be empty or wrong.
         checked: whether a checksum of their own was right.
@@ -89,7 +90,7 @@ class LogBuilder:
             self._counts[channel] = self._counts.get(channel, 0) + len(starts)
         self._unchecked = self._unchecked or not checked
         for keep in decoded:
-            keep(loose)
+            keep()
 
     def check_counts(self, expected: Mapping[int, int]) -> None:
         """Compare with the log's own statistics. Raises LogError when messages are missing."""
@@ -123,7 +124,7 @@ class LogBuilder:
         elif opcode == Opcode.CHANNEL:
             self.add_channel(Channel.read(ReadDataStream(BytesIO(body))))
 
-    def _decoded(self, channel: int, data: bytes, starts: NDArray[np.int64]) -> Callable[[bool], None]:
+    def _decoded(self, channel: int, data: bytes, starts: NDArray[np.int64]) -> Callable[[], None]:
         """Decode messages of one channel; what is given keeps them."""
         decoder = self._decoders.get(channel)
         match decoder:
@@ -131,11 +132,16 @@ class LogBuilder:
                 raise LogError(f"there are messages of channel {channel}, which the log does not describe")
             case StateDecoder():
                 states, when = decoder.decode(data, starts)
-                return lambda loose: self._states[channel].add(states, when, loose=loose)
+                return lambda: self._keep_states(channel, states, when)
             case NumberDecoder() | PoseDecoder():
                 values, times = decoder.decode(data, starts)
-                return lambda loose: self._tables[channel].add(values, times, loose=loose)
-        return lambda _: None
+                return lambda: self._tables[channel].add(values, times)
+        return lambda: None
+
+    def _keep_states(self, channel: int, states: list[Status], times: Times) -> None:
+        kept, when = self._states[channel]
+        kept += states
+        when += times.tolist()
 
     def _table(self, channels: Sequence[Growing]) -> Table:
         """One topic's; our own recorder writes ticks in order, and if they are not, review has to see it."""

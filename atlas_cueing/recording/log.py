@@ -9,7 +9,6 @@ import numpy as np
 
 from ..errors import LogError
 from ..signals import TOPICS
-from .pieces import Pieces
 from .wire import Array, Times
 
 _COMPONENTS = ("wxyz", "xyz", "123")  # of a quaternion, a vector, the wheels
@@ -93,16 +92,15 @@ class Growing:
 
     def __init__(self, fields: tuple[str, ...]) -> None:
         """A table of no messages yet."""
-        self.fields, self.pieces = fields, Pieces()
-        self._values = bytearray()
+        self.fields, self._values, self._times = fields, bytearray(), bytearray()
 
-    def add(self, values: Array, times: Times, *, loose: bool = False) -> None:
+    def add(self, values: Array, times: Times) -> None:
         """Values (n, fields) and log times (n,) that follow."""
         self._values += np.ascontiguousarray(values).data.cast("B")
-        self.pieces.add(times, loose=loose)
+        self._times += np.ascontiguousarray(times).data.cast("B")
 
     def table(self) -> Table:
-        """What was added, in the order of the file, to be read only."""
-        values, times = np.frombuffer(self._values).reshape(-1, len(self.fields)), self.pieces.times()
+        """What was added, to be read only."""
+        values, times = np.frombuffer(self._values).reshape(-1, len(self.fields)), np.frombuffer(self._times, np.uint64)
         values.flags.writeable = times.flags.writeable = False
         return Table(self.fields, values, times)

@@ -1,4 +1,4 @@
-"""The one table of a topic that lies on several channels, or in chunks of another order."""
+"""The one table of a topic that lies on several channels, or in an order that is not that of time."""
 
 from collections.abc import Sequence
 
@@ -6,46 +6,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .log import Growing, Status, Table
-from .pieces import Pieces, merged_order
 from .wire import Times
 
-
-class GrowingStates:
-    """Changes of state of a channel that is not complete yet."""
-
-    def __init__(self) -> None:
-        """No changes yet."""
-        self.states: list[Status] = []
-        self.pieces = Pieces()
-
-    def add(self, states: Sequence[Status], times: Times, *, loose: bool = False) -> None:
-        """States and their log times (n,), ns, that follow."""
-        self.states += states
-        self.pieces.add(times, loose=loose)
-
-
-def merged_states(channels: Sequence[GrowingStates]) -> tuple[Status, ...]:
-    """The changes of state of all channels, in order as those of `merged`."""
-    states = [state for channel in channels for state in channel.states]
-    return tuple(states[row] for row in merged_order([channel.pieces for channel in channels]))
+Rows = NDArray[np.intp]
+States = tuple[list[Status], list[int]]  # changes of state, and their log times, ns
 
 
 def merged(channels: Sequence[Growing]) -> Table:
     """The table of one topic from all its channels, in order of log time.
 
-    Channels are merged as sorted lists are: none of them is put in another order within itself. Fields
-    that not all channels have are left out.
+    Fields that not all channels have are left out.
     """
-    if len(channels) == 1:
-        table = channels[0].table()
-        order = channels[0].pieces.order()
-        return table if _in_order(order) else _rows(table, order)
-    fields = common_fields(channels)
-    tables = [channel.table() for channel in channels]
+    tables, fields = [channel.table() for channel in channels], common_fields(channels)
+    rows = merged_order([table.log_times for table in tables])
+    if len(tables) == 1 and np.all(rows[1:] > rows[:-1]):
+        return tables[0]  # as it lies in memory
     columns = [[table.fields.index(name) for name in fields] for table in tables]
-    values = np.concatenate([table.values[:, picked] for table, picked in zip(tables, columns, strict=True)])
-    times = np.concatenate([table.log_times for table in tables])
-    return _rows(Table(fields, values, times), merged_order([channel.pieces for channel in channels]))
+    values = np.concatenate([table.values[:, picked] for table, picked in zip(tables, columns, strict=True)])[rows]
+    times = np.concatenate([table.log_times for table in tables])[rows]
+    values.flags.writeable = times.flags.writeable = False
+    return Table(fields, values, times)
+
+
+def merged_states(channels: Sequence[States]) -> tuple[Status, ...]:
+    """The changes of state of all channels, in order of log time."""
+    states = [state for of_channel, _ in channels for state in of_channel]
+    return tuple(states[row] for row in merged_order([np.array(times, dtype=np.uint64) for _, times in channels]))
 
 
 def common_fields(channels: Sequence[Growing]) -> tuple[str, ...]:
@@ -53,11 +39,32 @@ def common_fields(channels: Sequence[Growing]) -> tuple[str, ...]:
     return tuple(name for name in channels[0].fields if all(name in other.fields for other in channels[1:]))
 
 
-def _in_order(order: NDArray[np.intp]) -> bool:
-    return bool(np.all(order[1:] > order[:-1]))
+def merged_order(channels: Sequence[Times]) -> Rows:
+    """Rows of all channels, one after the other, in order of log time (n,), ns.
+
+    Channels are merged as sorted lists are: none is put in another order than `time_order` gives it.
+    """
+    orders = [time_order(times) for times in channels]
+    keys = [np.maximum.accumulate(times[order]) for times, order in zip(channels, orders, strict=True)]
+    starts = np.cumsum([0, *map(len, channels)])
+    rows = [start + order for start, order in zip(starts[:-1], orders, strict=True)]
+    return np.concatenate([np.empty(0, np.intp), *rows])[
+        np.argsort(np.concatenate([np.empty(0, np.uint64), *keys]), kind="stable")
+    ]
 
 
-def _rows(table: Table, order: NDArray[np.intp]) -> Table:
-    values, times = table.values[order], table.log_times[order]
-    values.flags.writeable = times.flags.writeable = False
-    return Table(table.fields, values, times)
+def time_order(times: Times) -> Rows:
+    """Rows of a channel in order of log time (n,), ns, where whole stretches of it change places.
+
+    MCAP lets a writer put chunks in any order. Stretches that overlap stay as they are in the file: they are
+    ticks that were recorded in the wrong order, which has to be found.
+    """
+    starts = np.flatnonzero(np.diff(times.astype(np.int64), prepend=-1) < 0)
+    starts = np.concatenate([[0], starts]) if len(times) else starts
+    sizes = np.diff(starts, append=len(times))
+    first, last = times[starts], times[starts + sizes - 1]
+    by_time = np.lexsort((last, first))
+    if np.any(last[by_time][:-1] > first[by_time][1:]):
+        return np.arange(len(times))
+    sizes, before = sizes[by_time], np.cumsum(sizes[by_time]) - sizes[by_time]
+    return np.repeat(starts[by_time] - before, sizes) + np.arange(len(times))

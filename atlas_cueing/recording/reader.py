@@ -126,4 +126,4 @@ class _Content:
     def _finish_loose(self) -> None:
         data, self._loose = bytes(self._loose), bytearray()
         if data:
-            self._builder.add_messages(data, {}, loose=True)
+            self._builder.add_messages(data, {})
