@@ -4,7 +4,7 @@
     |-- InputError              a file, option or value is wrong; nothing was written (exit status 2)
     |   |-- ScenarioError       every mistake of a scenario or platform file at once
     |   |-- MissingExtraError   a package of an extra is not installed
-    |   |-- StartError          a flight that cannot begin as it is told: no trim, or in the ground
+    |   |-- StartError          a flight that cannot begin as it is told: no such model, no trim, in the ground
     |   |-- SlipConditionError  a geometry whose wheels cannot turn the sphere about every axis
     |   `-- OutputError         the log cannot be written where it was asked for
     |-- PrintError              standard output takes nothing more; what was recorded is kept (exit status 1)

@@ -11,7 +11,7 @@ from typing import Annotated, Any, TypeAlias
 
 from pydantic import BeforeValidator, Field, ValidationInfo
 
-from ..errors import InputError
+from ..errors import InputError, StartError
 from ..printable import is_name
 from ..vehicles import (
     AircraftFlight,
@@ -25,6 +25,7 @@ from ..vehicles import (
     own_scripts,
 )
 from ..vehicles.flightgear import DEFAULT_PORT, DEFAULT_RATE_HZ, LOOPBACK
+from ..vehicles.loading import AIRCRAFT_KEY
 from ..vehicles.user_models import aircraft_objection, user_model, within
 from .mistakes import MOST_SHOWN, Key, nearest, shown
 from .recorded import RecordedFlight
@@ -240,8 +241,9 @@ def unsettable_inputs(data: dict[str, Any], folder: Path, trusted: bool) -> list
     names = {i: name for i, event in enumerate(inputs) if (name := _property(event))}
     try:
         wrong = input_objections(aircraft, folder if mine else None, names.values()) if names else {}
-    except InputError as error:
-        return [(("vehicle", "aircraft"), shown(aircraft), str(error))]
+    except StartError as error:
+        reason = str(error).removeprefix(f"{AIRCRAFT_KEY} = {aircraft!r}: ")
+        return [(("vehicle", AIRCRAFT_KEY), shown(aircraft), reason)]
     found = [(i, name) for i, name in names.items() if name in wrong][:MOST_SHOWN]
     return [(("vehicle", "input", i, "property"), shown(name), wrong[name]) for i, name in found]
 

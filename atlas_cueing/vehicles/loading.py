@@ -1,6 +1,7 @@
 """A JSBSim instance with a script or an aircraft loaded, or an InputError that says why not."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -8,7 +9,7 @@ from xml.etree.ElementTree import Element
 
 import jsbsim
 
-from ..errors import InputError, OutputError
+from ..errors import InputError, OutputError, StartError
 from ..printable import utf8
 from .flights import DEFAULT_RATE_HZ, MAX_RATE_HZ, MIN_RATE_HZ, AircraftFlight, InitialConditions, ScriptFlight
 from .ground import has_flat_gear
@@ -28,6 +29,7 @@ from .private_copy import copy_aircraft, copy_script
 from .user_models import SHARED, aircraft_objection, plain_name
 
 LATEST_END = 1e6  # s, of a script; the longest own one, a balloon's, goes on for a week (6e5 s)
+AIRCRAFT_KEY = "aircraft"  # of a scenario, for messages
 _OUTPUT = "simulation/output/"  # properties of the outputs that were left out; scripts may go on setting them
 _SILENT = 0  # debug level: no reports on what was loaded
 
@@ -47,7 +49,8 @@ def load(flight: ScriptFlight | AircraftFlight) -> jsbsim.FGFDMExec:
         if isinstance(flight, ScriptFlight):
             _load_script(fdm, flight, Path(folder), log)
         else:
-            _load_aircraft(fdm, flight, Path(folder), log)
+            with naming_aircraft(flight):
+                _load_aircraft(fdm, flight, Path(folder), log)
             rate_hz = DEFAULT_RATE_HZ if rate_hz is None else rate_hz
     _disarm(fdm)
     if rate_hz is not None:
@@ -60,6 +63,15 @@ def _refuse_names(*folders: str) -> None:
     for folder in folders:
         if utf8(folder) != folder:
             raise OutputError(f"folder {folder}: its name is not UTF-8, which JSBSim needs; set TMPDIR")
+
+
+@contextmanager
+def naming_aircraft(flight: AircraftFlight) -> Iterator[None]:
+    """Around what needs the model: an InputError gets the key that names it."""
+    try:
+        yield
+    except InputError as error:
+        raise StartError(f"{AIRCRAFT_KEY} = {flight.aircraft!r}: {error}") from error
 
 
 def _load_script(fdm: jsbsim.FGFDMExec, flight: ScriptFlight, folder: Path, log: JsbsimLog) -> None:
@@ -152,7 +164,7 @@ def _checked(rate_hz: float) -> float:
 def input_objections(aircraft: str, models: Path | None, names: Iterable[str]) -> dict[str, str]:
     """Why nothing can be set by each of these properties of an aircraft; only those are given where it is so.
 
-    Raises InputError when the aircraft does not load.
+    Raises StartError when the aircraft does not load.
     """
     fdm = _loaded(aircraft, models)
     return {name: objection for name in dict.fromkeys(names) if (objection := property_objection(name, fdm))}

@@ -10,6 +10,7 @@ from .flights import AircraftFlight, InitialConditions, TimedInput
 from .ground import check_standing, stand_objection
 from .inputs import InputPlayer
 from .library import JSBSIM_ERRORS, one_line
+from .loading import naming_aircraft
 from .readings import METRES_PER_FOOT
 
 STANDING_AIRSPEED = 1.0  # m/s; a trim slower than this ...
@@ -56,7 +57,8 @@ def start_aircraft(fdm: jsbsim.FGFDMExec, flight: AircraftFlight) -> InputPlayer
     inputs = [_after_start(event, fdm.get_delta_t()) for event in flight.inputs]
     player = InputPlayer(inputs, fdm)
     _set(fdm, initial)
-    initialise(fdm)
+    with naming_aircraft(flight):
+        initialise(fdm)
     if initial.engines_running:
         fdm.get_propulsion().init_running(_ALL_ENGINES)
     try:

@@ -22,6 +22,7 @@ airspeed_m_s = 60.0
 preset = "atlas-2.9m"
 """
 _INPUT = '[[vehicle.input]]\ntime_s = 0.1\nproperty = "{}"\nvalue = {}\n'
+_TRIM = "simulation/do_simple_trim"
 _HUGE = 10 * 2**30  # bytes
 _LOG = b"\x89MCAP0\r\n" + bytes(300_000)
 # Whatever a path may lead to instead of a file of ours; none of it is to be waited for or read to its end.
@@ -68,6 +69,10 @@ TEXTS = [
     scenario("empty file", "", says="name: missing"),
     scenario("NUL bytes", bytes(1000)),
     scenario("not UTF-8", b'name = "\xff"', says="not UTF-8"),
+    scenario("UTF-16", ("\ufeff" + SCENARIO).encode("utf-16-le"), says="is UTF-16 text"),
+    scenario("a name that turns a line around", SCENARIO.replace('"s"', '"a\u202eb"'), says="name = 'a\\u202eb'"),
+    scenario("a name with an escape", SCENARIO.replace('"s"', '"a\\u001b[2J"'), says="name = 'a\\x1b[2J'"),
+    scenario("a name of a number", SCENARIO.replace('"s"', "42"), says='as a text: "42"'),
     scenario("a log", _LOG, says="is a log (MCAP)"),
     scenario("300 kB", SCENARIO + "#" * 300_000, says="too large"),
     scenario("dotted key of 40 kB", ".".join("a" * 20_000) + "=1\n" + SCENARIO, says="too many dots"),
@@ -102,9 +107,12 @@ NAMES = [
         {"bad.toml": SCENARIO.replace("c1722", "x.xml"), "x.xml": Link("/etc/passwd")},
         says="vehicle.script",
     ),
+    scenario("script with an escape", SCENARIO.replace("c1722", "a\\u001b.xml"), says="vehicle.script"),
+    scenario("a source that is none", SCENARIO.replace('script = "c1722"', 'source = "x"\nport = 1'), says="vehicle.source"),
     scenario("aircraft ../f16", AIRCRAFT.replace("c172x", "../f16"), says="vehicle.aircraft"),
     scenario("unknown aircraft", AIRCRAFT.replace("c172x", "f61"), says="did you mean 'f16'"),
-    scenario("aircraft that does not load", AIRCRAFT.replace("c172x", "blank"), says="blank.xml"),
+    scenario("aircraft that does not load", AIRCRAFT.replace("c172x", "blank"), says="bad.toml: vehicle.aircraft"),
+    scenario("aircraft that does not begin", AIRCRAFT.replace("c172x", "L17"), says="bad.toml: vehicle.aircraft"),
 ]
 _START = "[vehicle.initial]\naltitude_m = 1000\nairspeed_m_s = 60.0\n"
 FLIGHTS = [
@@ -112,8 +120,19 @@ FLIGHTS = [
     scenario("altitude 1e300", AIRCRAFT.replace("1000", "1e300"), says="altitude_m"),
     scenario("airspeed nan", AIRCRAFT.replace("60.0", "nan"), says="airspeed_m_s"),
     scenario("airspeed 20 km/s", AIRCRAFT.replace("60.0", "20000.0"), status=1, says="specific force"),
-    scenario("400 m below the sea", AIRCRAFT.replace("1000", "-400"), status=1, says="specific force"),
-    scenario("a trim that is not", AIRCRAFT.replace("60.0", "5.0\ntrim = true"), status=1, says="no full trim"),
+    scenario("400 m below the sea", AIRCRAFT.replace("1000", "-400"), says="in the ground"),
+    scenario("a trim that is not", AIRCRAFT.replace("60.0", "5.0\ntrim = true"), says="bad.toml: vehicle.initial.trim"),
+    scenario(
+        "in the ground", AIRCRAFT.replace("1000", "0").replace("60.0", "0.0"), says="bad.toml: vehicle.initial.altitude_m"
+    ),
+    scenario("input that trims at once", AIRCRAFT + _INPUT.format(_TRIM, 2).replace("0.1", "0.0"), says=f"{_TRIM!r} = 2"),
+    scenario("input that trims where none is", AIRCRAFT + _INPUT.format(_TRIM, 2), status=1, says="vehicle failed at 0.1"),
+    scenario(
+        "input that starts an engine that is none",
+        AIRCRAFT + _INPUT.format("propulsion/set-running", 1e9),
+        status=1,
+        says="vehicle failed at 0.1",
+    ),
     *[
         scenario(
             f"input {name[:30]} = {value}",
@@ -127,6 +146,7 @@ FLIGHTS = [
             ("velocities/p-rad_sec", "1"),
             ("simulation/write-state-file", "1"),
             ("simulation/dt", "0"),
+            ("atmosphere/updownburst/number-of-cells", "1e9"),
             ("a[999999999]", "1"),
             ("[[[", "1"),
             ("../..", "1"),

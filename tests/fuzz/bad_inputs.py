@@ -16,6 +16,7 @@ def bad_inputs(log: bytes) -> dict[str, list[BadInput]]:
         "platforms": bad_files.PLATFORMS,
         "paths": bad_files.PATHS,
         "scripts": bad_models.SCRIPTS,
+        "models": bad_models.MODELS,
         "logs": bad_logs.bad_logs(log),
         "no logs": bad_logs.NOT_THERE,
         "outputs": bad_logs.OUTPUTS,

@@ -1,11 +1,12 @@
 """Bad scripts of JSBSim beside a scenario."""
 
-from .bad_files import SCENARIO
-from .trying import BadInput
+from .bad_files import AIRCRAFT, SCENARIO
+from .trying import BadInput, Content, Link
 
 _SCRIPT = '<runscript><use aircraft="c172x" initialize="reset00"/><run start="0" end="0.5" dt="0.01">{}</run></runscript>'
 _EVENT = "<event><condition>simulation/sim-time-sec ge 0.1</condition>{}</event>"
 _SET = _EVENT.format('<set name="fcs/elevator-cmd-norm"{}</set>')
+_MODEL = '<fdm_config name="x" version="2.0">{}</fdm_config>'
 _BOMB = "".join(f'<!ENTITY {b} "{f"&{a};" * 30}">' for a, b in zip("abcdef", "bcdefg", strict=True))
 
 
@@ -66,4 +67,45 @@ SCRIPTS = [
     _set("unknown function", "><function><foo/></function>", "JSBSim cannot load it"),
     _set("empty function", "><function/>", "JSBSim cannot load it"),
     _set("random text", '><function><urandom lower="a"/></function>', "numeric"),
+    _run(
+        "a clock set back for ever",
+        '<event persistent="true"><condition>simulation/sim-time-sec ge 0.02</condition>'
+        '<set name="simulation/reset" value="1"/></event>',
+        "its end never comes",
+        status=1,
+    ),
+]
+
+
+def _model(name: str, text: str, says: str, *, trusted: bool = True, **more: Content) -> BadInput:
+    """An aircraft beside a scenario, and more files by path."""
+    files: dict[str, Content] = {"bad.toml": AIRCRAFT.replace("c172x", "mine"), "aircraft/mine/mine.xml": text}
+    return BadInput(name, ("run", "bad.toml", *(["--trust-models"] if trusted else [])), {**files, **more}, says=says)
+
+
+def _naming(name: str, file: str, says: str, **more: Content) -> BadInput:
+    """An aircraft that names a file."""
+    return _model(name, _MODEL.format(f'<system file="{file}"/>'), says, **more)
+
+
+_SYSTEMS = {f"systems/s{i}.xml": "<system/>" for i in range(200)}
+MODELS = [
+    _model("without --trust-models", _MODEL.format(""), "--trust-models", trusted=False),
+    _model("no XML", "hello", "bad.toml: vehicle.aircraft"),
+    _model("a script", _SCRIPT.format(""), "root element"),
+    _model("nothing in it", _MODEL.format(""), "JSBSim cannot"),
+    _model("2 MB", _MODEL.format(f"<!--{'x' * 2_000_000}-->"), "too large"),
+    _model("200,000 elements deep", "<fdm_config>" + "<a>" * 200_000, "nested deeper"),
+    _model("entity bomb", f'<!DOCTYPE r [<!ENTITY a "aaaaaaaaaa">{_BOMB}]><fdm_config>&g;</fdm_config>', "amplification"),
+    _naming("reference to /etc/passwd", "/etc/passwd", "file='/etc/passwd'"),
+    _naming("reference to ../../x", "../../x", "file='../../x'"),
+    _naming("a reference linked from outside", "x", "JSBSim cannot", **{"systems/x.xml": Link("/etc/passwd")}),
+    _naming("a file that names itself", "x", "JSBSim cannot", **{"systems/x.xml": '<system file="x"/>'}),
+    _model("200 files", _MODEL.format("".join(f'<system file="s{i}"/>' for i in range(200))), "too many files", **_SYSTEMS),
+    _model(
+        "one of JSBSim's names",
+        "",
+        "ships an aircraft",
+        **{"bad.toml": AIRCRAFT, "aircraft/c172x/c172x.xml": _MODEL.format("")},
+    ),
 ]

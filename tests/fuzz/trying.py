@@ -163,6 +163,7 @@ def prepare(bad: BadInput, folder: Path, scenario: str, log: bytes) -> None:
     """Put its files into the folder in which the command is to run."""
     (folder / "good.toml").write_text(scenario)
     for file, content in bad.files.items():
+        (folder / file).parent.mkdir(parents=True, exist_ok=True)
         _make(folder / file, content, log)
 
 

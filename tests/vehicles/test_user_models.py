@@ -48,7 +48,7 @@ def test_a_copy_flies_as_the_aircraft_that_it_is_a_copy_of(of: str, engines: boo
 
 def test_engines_beside_it_go_before_jsbsims_own(tmp_path: Path) -> None:
     mine(tmp_path, engines=True)
-    edit(tmp_path / "engine" / "eng_io320.xml", "160.0  </maxhp>", "320.0  </maxhp>")
+    edit(tmp_path / "engine" / "eng_io320.xml", '<displacement unit="IN3"> 320.0', '<displacement unit="IN3"> 330.0')
     strong, own = (fly(JsbsimVehicle(one))[-1] for one in (flight(tmp_path), cessna(duration=0.5)))
     assert strong != own
 
