@@ -42,7 +42,7 @@ __all__ = [
     "prepare_metadata_for_build_wheel",
 ]
 
-BELONGING = (".ci", ".gitignore", "README.md", "pyproject.toml")
+BELONGING: tuple[str, ...] = (".ci", ".gitignore", "README.md", "pyproject.toml")
 BELONGING += ("atlas_cueing", "scenarios", "tests", "tools")
 SETTING = "ATLAS_CUEING_COMPILE"
 # mypy checks what it compiles, with types of numpy in it; a major version of either may refuse it
