@@ -167,7 +167,7 @@ def test_time_taken_away_is_a_share() -> None:
 
 @pytest.mark.parametrize(
     ("arguments", "message"),
-    [(["--only", "everything"], "invalid choice: 'everything'"), (["--json", "no/such.json"], "no such folder")],
+    [(["--only", "everything"], "invalid choice: 'everything'"), (["--json", "no/such.json"], "there is no folder")],
 )
 def test_wrong_usage(arguments: list[str], message: str, tmp_path: Path) -> None:
     told = subprocess.run(

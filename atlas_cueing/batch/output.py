@@ -103,7 +103,7 @@ def _check_replaced(file: Path, kind: Kind, force: bool, refusal: str) -> None:
     if not force:
         _refuse(refusal)
     if not kind.may_replace(_begin(file, len(kind.begins))):
-        _refuse(f"is no {kind.name} of atlas-cueing, and --force replaces nothing else")
+        _refuse(f"is no {kind.name} of atlas-cueing, and nothing else is replaced")
     if _of_another(file.parent, found):
         _refuse(f"belongs to another user, who alone may replace it in {file.parent}")
 

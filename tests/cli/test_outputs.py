@@ -49,7 +49,7 @@ def test_a_page_does_not_replace_a_log_nor_a_log_a_page(command: Command, log: P
     (log.parent / "other.mcap").write_bytes(before)
     ended = command("review", "short.mcap", "--html", "other.mcap", "--force")
     assert (ended.status, ended.out) == (2, "")
-    assert "is no page of atlas-cueing, and --force replaces nothing else" in ended.err
+    assert "is no page of atlas-cueing, and nothing else is replaced" in ended.err
     command("review", "short.mcap", "--html", "page.html")
     assert command("run", "s.toml", "-o", "page.html", "--force").status == 2
     assert (log.parent / "other.mcap").read_bytes() == before

@@ -105,8 +105,8 @@ _PLACES: dict[str, tuple[str, dict[str, Content], str]] = {
     "a name of 5 kB": ("x" * 5000, {}, "File name too long"),
 }
 _FORCED: dict[str, tuple[str, dict[str, Content], str]] = {
-    "a file of another kind": ("old", {"old": "precious"}, "--force replaces nothing else"),
-    "a link to one": ("new", {"new": Link("old"), "old": "precious"}, "--force replaces nothing else"),
+    "a file of another kind": ("old", {"old": "precious"}, "nothing else is replaced"),
+    "a link to one": ("new", {"new": Link("old"), "old": "precious"}, "nothing else is replaced"),
     "links in a circle": ("a", {"a": Link("b"), "b": Link("a")}, "Too many levels of symbolic links"),
     "a link to a device": ("new", {"new": Link("/dev/null")}, "no regular file"),
     "a link to an open file": ("new", {"new": Link("/proc/self/fd/2")}, "an open file of a process"),
@@ -160,7 +160,10 @@ OUTPUTS = (
             says="is written twice",
         ),
         BadInput(
-            "run --force over a .part that is a link", (*_RUN, "--force"), {"s.mcap.part": Link("good.toml")}, says="no regular"
+            "run --force over a .part that is a link",
+            (*_RUN, "--force"),
+            {"s.mcap.part": Link("old"), "old": "precious"},
+            says="no regular",
         ),
         BadInput("run --force over a .part that is a FIFO", (*_RUN, "--force"), {"s.mcap.part": Pipe()}, says="no regular"),
         BadInput("run --force over a .part of another kind", (*_RUN, "--force"), {"s.mcap.part": "precious"}, says="no log"),
