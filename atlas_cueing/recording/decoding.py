@@ -45,18 +45,13 @@ class NumberDecoder:
 
         Raises LogError where a message is none of its schema.
         """
-        values = self._fixed(data, starts) if self._flat else None
-        if values is None:
-            numbers = [self._row(message) for message in self._message.all(data, starts)]
-            values = np.array(numbers, dtype=np.float64).reshape(-1, len(self.fields))
-        return values, log_times_of(data, starts)
-
-    def _fixed(self, data: bytes, starts: Starts) -> Array | None:
-        """Values where every message is in our own layout, after a look at every tag and length."""
-        records = _records(data, starts, flat_dtype(len(self.fields)))
-        if records is None or not np.all(records["length"] == records.itemsize - RECORD_HEAD):
-            return None
-        return take(records, len(self.fields))
+        records = _records(data, starts, flat_dtype(len(self.fields))) if self._flat else None
+        if records is not None:
+            values = take(records, len(self.fields))  # after a look at every tag
+            if values is not None and np.all(records["length"] == records.itemsize - RECORD_HEAD):
+                return values, records["log_time"].copy()
+        numbers = [self._row(message) for message in self._message.all(data, starts)]
+        return np.array(numbers, dtype=np.float64).reshape(-1, len(self.fields)), log_times_of(data, starts)
 
 
 class PoseDecoder:
@@ -70,14 +65,13 @@ class PoseDecoder:
 
     def decode(self, data: bytes, starts: Starts) -> tuple[Array, Times]:
         """Poses (n, 7) and log times (n,), ns. Raises LogError as `NumberDecoder`, and for other poses."""
-        times = log_times_of(data, starts)
         records = _records(data, starts, transform_template(0).dtype)
         values = take_transforms(records) if records is not None else None
-        if values is None:
-            found = [pose_of(message) for message in self._message.all(data, starts)]
-            times = times[np.array([pose is not None for pose in found], dtype=np.bool_)]
-            values = np.array([pose for pose in found if pose]).reshape(-1, len(POSE))
-        return values, times
+        if records is not None and values is not None:
+            return values, records["log_time"].copy()
+        found = [pose_of(message) for message in self._message.all(data, starts)]
+        ours = np.array([pose is not None for pose in found], dtype=np.bool_)
+        return np.array([pose for pose in found if pose]).reshape(-1, len(POSE)), log_times_of(data, starts)[ours]
 
 
 class StateDecoder:

@@ -12,6 +12,7 @@ from typing import TypeAlias
 import numpy as np
 from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st
+from recording.layouts import LAYOUTS, rewritten
 
 from atlas_cueing.errors import AtlasError
 from atlas_cueing.live import setpoint
@@ -159,10 +160,21 @@ def _crafted(what: tuple[bytes, bytes, bytes]) -> bytes:
     return stream.getvalue()
 
 
+def _of_others() -> list[bytes]:
+    """The good log as other programs write it."""
+    with TemporaryDirectory() as folder:
+        own, other = Path(folder) / "own.mcap", Path(folder) / "other.mcap"
+        own.write_bytes(_log())
+        return [
+            rewritten(own, other, LAYOUTS[name]).read_bytes() for name in ("lz4", "no chunks, no checksums", "beside others")
+        ]
+
+
 _FELT, _STATUS = schema_of("/felt")[1], schema_of(STATUS)[1]
 _MESSAGES = flat_template(1, len(TOPICS[-1].fields)).tobytes() * 2 + record_template(2, b"\x12\x02ok") + record_template(3, b"")
 _LOGS = st.one_of(
     spoilt([_log()], (b"\x89MCAP0\r\n", b"zstd", b"\x05", b"\x06")),
+    spoilt(_of_others(), (b"lz4", b"\x03", b"\x04", b"\x05", b"\x06", b"json", b"protobuf")),
     st.tuples(
         spoilt([_FELT], (b"time_s", b"\x01")), spoilt([_STATUS], (b"time_s", b"\x09", b"\x01")), spoilt([_MESSAGES], (b"\x05",))
     ).map(_crafted),
