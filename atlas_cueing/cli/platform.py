@@ -31,8 +31,8 @@ def platform(
     typer.echo(one_json(figures) if as_json else platform_summary(figures))
     if not figures["slip_free"]:
         typer.echo(
-            f"{name_or_file}: wheel: singular, the three induced rows are not independent (kinematic slip condition); "
-            "move a contact point or turn a drive direction",
+            f"{name_or_file}: wheel: singular, the three induced rows are not independent "
+            "(kinematic slip condition); move a contact point or turn a drive direction",
             err=True,
         )
         raise typer.Exit(1)

@@ -31,7 +31,8 @@ def load_scenario(path: Path, overrides: Sequence[str] = (), *, trust_models: bo
     `platform.wheel_limits.speed_rad_s=20`.
     A value is TOML, or else a bare string. Raises ScenarioError with every mistake of both files and of the overrides.
 
-    trust_models: whether a script or aircraft beside the scenario may be flown; it can be read and cued anew in any case.
+    trust_models: whether a script or aircraft beside the scenario may be flown; it can be read and
+        cued anew in any case.
     """
     settings = parse_overrides(overrides)
     return resolve(read_toml(path), settings, path, trust_models=trust_models)
