@@ -32,7 +32,8 @@ def load_scenario(path: str | Path, overrides: Sequence[str] = (), *, trust_mode
     `platform.wheel_limits.speed_rad_s=20`.
     A value is TOML, or else a bare string. Raises ScenarioError with every mistake of both files and of the overrides.
 
-    trust_models: whether a script or aircraft beside the scenario may be flown; it can be read and cued anew in any case.
+    trust_models: whether a script or aircraft beside the scenario may be flown; it can be read and
+        cued anew in any case.
     """
     if os.path.isdir(path):
         batch = f"to fly all scenarios in it: atlas-cueing batch {path} -o RESULTS"

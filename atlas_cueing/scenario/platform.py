@@ -20,12 +20,12 @@ Limits: TypeAlias = Annotated[tuple[Limit, Limit, Limit], ONE_OR_THREE]
 
 _LONGEST_NAME = 100  # characters, and ...
 _LONGEST_NAME_BYTES = 200  # ... bytes in UTF-8: names of files, which it begins, end at 255
-_LETTERS = ("L", "M", "Nd")  # categories of Unicode: letters, the marks that belong to them, digits
+_LETTERS = ("L", "M", "Nd")  # categories of Unicode: letters, marks upon them, digits
 
 
 def _name(value: Any) -> str:
     """A name, composed (NFC), so that what looks the same is the same."""
-    allowed = "letters and digits of any alphabet, '.', '_', '-', beginning with a letter, digit, '_' or '-'"
+    allowed = "letters and digits of any alphabet, '.', '_', '-', not beginning with '.' or a mark"
     allowed += f", at most {_LONGEST_NAME} characters and {_LONGEST_NAME_BYTES} bytes"
     check_text(value, allowed)
     name = normalize("NFC", value)
@@ -138,7 +138,7 @@ class Platform(Table):
 
 
 def without_room(platform: Platform, dt: float) -> list[tuple[tuple[str, str], float, str]]:
-    """Limits that leave no room to move between two ticks of dt s, as smoothing needs it: (key, value, what is allowed)."""
+    """Limits that leave no room to move between two ticks of dt s: (key, value, what is allowed)."""
     wheels, stage = platform.wheel_limits, platform.stage_limits
     rows = (
         ("wheel_limits", "speed_rad_s", wheels.speed_rad_s, "jerk_rad_s3", wheels.jerk_rad_s3),

@@ -84,10 +84,12 @@ class ScenarioFile(Table):
 
 @dataclass(frozen=True, slots=True)
 class Scenario:
-    """A scenario: the file with every override in it, its platform, and the folder of the user's scripts and aircraft.
+    """A scenario: the file with every override in it, its platform, and the folder of what is the user's.
 
-    trust_models: whether a user's script or aircraft may be flown; without it everything but the flight can be had.
-    source, name_platform: the scenario file, and which file a key of the platform came from, for messages.
+    trust_models: whether a user's script or aircraft may be flown; without it everything but the
+        flight can be had.
+    source, name_platform: the scenario file, and which file a key of the platform came from, for
+        messages.
     """
 
     file: ScenarioFile
@@ -134,7 +136,7 @@ class Scenario:
             raise InputError(f"{self.source}: vehicle.{error}") from error
 
     def _check_trust(self) -> None:
-        """A script can hold whatever JSBSim understands: it is a program, of whoever wrote it; so is a model."""
+        """A script or a model can hold whatever JSBSim understands: it is a program of whoever wrote it."""
         script, model = self._users()
         if (script or model) and not self.trust_models:
             raise InputError(
@@ -185,7 +187,7 @@ def _plain(table: Table) -> dict[str, Any]:
 
 
 def _beside(script: Path, content: bytes, folder: Path) -> dict[str, Path]:
-    """The script's own file of initial conditions, when it lies in the script's folder, and its aircraft of the user's."""
+    """What a script names of the user's: its file of initial conditions beside it, and its aircraft."""
     initialize, aircraft = _named(b"initialize", content), _named(b"aircraft", content)
     path = beside(script, initialize) if initialize else None
     files = {path.name: path} if path else {}

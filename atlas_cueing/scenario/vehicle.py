@@ -225,10 +225,10 @@ def vehicle_rules(data: dict[str, Any]) -> list[tuple[Key, str]]:
 
 
 def unsettable_inputs(data: dict[str, Any], folder: Path, trusted: bool) -> list[tuple[Key, str, str]]:
-    """Inputs on properties that the aircraft does not have, or that cannot be set: (key, value, what is wrong) for each.
+    """Inputs on properties that cannot be set, or are none: (key, value, what is wrong) for each.
 
-    An aircraft that does not load is a mistake itself. One of the user's own is looked at only when it is trusted, and none
-    without inputs.
+    An aircraft that does not load is a mistake itself. One of the user's own is looked at only when
+    it is trusted, and none without inputs.
     """
     vehicle = data.get("vehicle")
     inputs = vehicle.get("input") if isinstance(vehicle, dict) else None

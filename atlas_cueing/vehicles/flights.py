@@ -12,8 +12,9 @@ MAX_RATE_HZ = 10_000.0  # above it rounding of the step is all that is gained; t
 class ScriptFlight:
     """A flight as a JSBSim script tells it.
 
-    script: an XML file of root `runscript`, JSBSim's own or a user's. It names one of JSBSim's own aircraft, or one in
-        `models`; its file of initial conditions may lie beside it, or with the aircraft.
+    script: an XML file of root `runscript`, JSBSim's own or a user's. It names one of JSBSim's own
+        aircraft, or one in `models`; its file of initial conditions may lie beside it, or with the
+        aircraft.
     rate_hz: steps per second; None for the script's own.
     duration: s; None for the script's own end. It can only shorten the script.
     models: folder of a user's own aircraft (see `user_models.py`); None without.
@@ -56,8 +57,8 @@ class TimedInput:
 
     A ramp starts from the property's value at that moment; of two on one property the later takes over from wherever it is.
     Inputs at time 0 are in effect before the first step and, without a ramp, during the trim and in the first state. So set
-    wind, gear and flaps at 0, but begin a manoeuvre later: with the stick held over there is nothing to trim. Turbulence at 0
-    begins with the second state.
+    wind, gear and flaps at 0, but begin a manoeuvre later: with the stick held over there is nothing
+    to trim. Turbulence at 0 begins with the second state.
     """
 
     time: float
@@ -68,8 +69,9 @@ class TimedInput:
 
 @dataclass(frozen=True, slots=True)
 class AircraftFlight:
-    """An aircraft flown by timed inputs: `duration` in s, None for no end; `rate_hz` steps per second.
+    """An aircraft flown by timed inputs.
 
+    duration: s, None for no end. rate_hz: steps per second.
     It is one of JSBSim's own, or the user's in the folder `models` (see `user_models.py`).
     """
 

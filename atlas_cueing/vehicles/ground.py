@@ -1,4 +1,4 @@
-"""Starts on the ground, where the altitude of the centre of gravity says how deep the gear is in it."""
+"""Starts on the ground: the altitude is that of the centre of gravity, so the gear may be deep in it."""
 
 from collections.abc import Iterator
 from itertools import combinations
@@ -12,19 +12,20 @@ from ..rotation import Vec3, cross, norm, subtract
 from .flights import InitialConditions
 from .readings import METRES_PER_FOOT
 
-# Of the force of the ground in the first state, in weights. An aircraft at rest has 1; a hard landing, 2 to 3 (14 CFR 23.473);
-# of JSBSim's own aircraft at altitude 0, on its gear nowhere, the gentlest has 5. Assumed.
+# Force of the ground in the first state, in weights (assumed). At rest it is 1; gear is built for
+# landings of 2 to 3 (14 CFR 23.473); JSBSim's own aircraft, put to altitude 0, begin with 5 or more.
 HARDEST_START = 2.0
 
 _Unit: TypeAlias = dict[str, float]
 _POSITION = ("x-position", "y-position", "z-position")
-_SMALLEST_TRIANGLE = 1e-3  # square inches, twice the area; what is meant to be one point is one to rounding
+_SMALLEST_TRIANGLE = 1e-3  # square inches, twice the area; below it is rounding
 
 
 def check_standing(fdm: jsbsim.FGFDMExec, initial: InitialConditions) -> None:
     """Refuse a first state whose gear is pressed into the ground far beyond what the aircraft weighs.
 
-    It would be thrown into the air, with tens of g at once. Raises StartError that says how deep it is and what to do.
+    It would be thrown into the air, with tens of g at once. Raises StartError that says how deep it
+    is and what to do.
     """
     depth = METRES_PER_FOOT * max((unit["compression-ft"] for unit in _units(fdm)), default=0.0)
     force = _force(fdm) / fdm["inertia/weight-lbs"]
@@ -41,14 +42,14 @@ def check_standing(fdm: jsbsim.FGFDMExec, initial: InitialConditions) -> None:
 
 
 def stand_objection(fdm: jsbsim.FGFDMExec) -> str:
-    """Why a trim on the ground is not to be tried, since JSBSim would end the process; nothing when it may."""
+    """Why a trim on the ground is not to be tried, as JSBSim would end the process; else nothing."""
     if not isfinite(_force(fdm)):
         return "the force on its gear is not finite"
     return "" if _triangle(fdm) else "no three points of its gear make a triangle to stand on"
 
 
 def has_flat_gear(fdm: jsbsim.FGFDMExec) -> bool:
-    """Whether the gear has three points or more and all on one line: JSBSim's trim on the ground ends the process."""
+    """Whether three points of the gear or more lie all on one line, so that a trim ends the process."""
     return fdm["gear/num-units"] >= 3 and not _triangle(fdm)
 
 

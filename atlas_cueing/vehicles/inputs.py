@@ -14,7 +14,7 @@ from .flights import TimedInput
 from .library import JSBSIM_ERRORS, one_line, property_objection
 
 _TIME_TOLERANCE: Final = 1e-9  # s; an input at n dt belongs to step n however n dt was rounded
-# Controls and wind, which JSBSim only stores: nothing can throw there. Others may start a trim or an engine.
+# Controls and wind, which JSBSim only stores: nothing throws there. Others may start a trim.
 _STORED: Final = ("fcs/", "ap/", "atmosphere/wind-")
 
 
@@ -81,7 +81,8 @@ class InputPlayer:
         try:
             self._fdm[name] = value
         except JSBSIM_ERRORS as error:
-            raise VehicleError(time, f"input on {name!r} = {value:g}: JSBSim: {one_line(error)}") from error
+            reason = f"input on {name!r} = {value:g}: JSBSim: {one_line(error)}"
+            raise VehicleError(time, reason) from error
 
 
 def _writable_node(name: str, fdm: jsbsim.FGFDMExec) -> jsbsim.FGPropertyNode:

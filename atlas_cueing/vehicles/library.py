@@ -13,7 +13,7 @@ JSBSIM_ERRORS = (RuntimeError, ValueError, IndexError, ArithmeticError, MemoryEr
 TRIM = "simulation/do_simple_trim"
 # Properties that nobody may set, and why; a trim by property only where it is so.
 FORBIDDEN = {
-    TRIM: "a trim of an aircraft whose gear has no three points that make a triangle ends the process",
+    TRIM: "on gear without three points that make a triangle a trim ends the process",
     "simulation/do_linearization": "it writes a file",
     "simulation/write-state-file": "it writes a file",
     "atmosphere/updownburst/number-of-cells": "it takes memory and time without bound",
@@ -60,7 +60,7 @@ def writable_names(fdm: jsbsim.FGFDMExec) -> list[str]:
 
 
 def property_objection(name: str, fdm: jsbsim.FGFDMExec) -> str:
-    """Why nothing can be set by this name in the loaded model, with the nearest name where there is none; else nothing.
+    """Why nothing can be set by this name in the loaded model; else nothing.
 
     JSBSim itself creates a missing property in silence, so that a misspelt control does nothing.
     """
@@ -70,9 +70,8 @@ def property_objection(name: str, fdm: jsbsim.FGFDMExec) -> str:
     if node.get_attribute(jsbsim.Attribute.WRITE):
         return ""
     reason = FORBIDDEN.get(node.get_fully_qualified_name().removeprefix(_ROOT_NODE))
-    return (
-        f"JSBSim property {name!r} must not be set: {reason}" if reason else f"JSBSim property {name!r} can be read but not set"
-    )
+    wrong = f"must not be set: {reason}" if reason else "can be read but not set"
+    return f"JSBSim property {name!r} {wrong}"
 
 
 def one_line(error: BaseException) -> str:

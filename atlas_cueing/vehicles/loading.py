@@ -80,7 +80,8 @@ def _load_script(fdm: jsbsim.FGFDMExec, flight: ScriptFlight, folder: Path, log:
     for run in tree.iter("run"):
         _check_step(run.get("dt", ""), script)
         _check_end(run.get("end", ""), script)
-    originals = {str(copy): str(script), **_point_to_copies(fdm, folder, flight.models), str(folder): str(script.parent)}
+    originals = {str(copy): str(script), **_point_to_copies(fdm, folder, flight.models)}
+    originals[str(folder)] = str(script.parent)
     _try(lambda: fdm.load_script(str(copy)), str(script), originals, log)
     _check_names(tree, script, fdm)
 
@@ -96,7 +97,7 @@ def _load_aircraft(fdm: jsbsim.FGFDMExec, flight: AircraftFlight, folder: Path, 
 
 
 def _point_to_copies(fdm: jsbsim.FGFDMExec, folder: Path, models: Path | None) -> dict[str, str]:
-    """Let JSBSim look at the copies of a user's engines and systems; gives for each folder what it is a copy of."""
+    """Let JSBSim look at copies of a user's engines and systems; gives what each folder is a copy of."""
     if not (folder / SHARED[0]).exists():
         return {f"{folder}/aircraft": f"{root()}/aircraft"}
     fdm.set_engine_path(str(folder / SHARED[0]))
@@ -117,7 +118,7 @@ def _try(load: Callable[[], bool], what: str, originals: dict[str, str], log: Js
 
 
 def _disarm(fdm: jsbsim.FGFDMExec) -> None:
-    """Make JSBSim ignore what would write a file into the working directory, never end, or end the process."""
+    """Make JSBSim ignore what would write a file, never end, or end the process."""
     for name in FORBIDDEN if has_flat_gear(fdm) else [name for name in FORBIDDEN if name != TRIM]:
         node = fdm.get_property_manager().get_node(name)
         if node:
@@ -162,7 +163,7 @@ def _checked(rate_hz: float) -> float:
 
 
 def input_objections(aircraft: str, models: Path | None, names: Iterable[str]) -> dict[str, str]:
-    """Why nothing can be set by each of these properties of an aircraft; only those are given where it is so.
+    """Those of an aircraft's properties that cannot be set: name to the reason.
 
     Raises StartError when the aircraft does not load.
     """

@@ -2,9 +2,10 @@
 
 A script or model may carry `<output>` (a file in the working directory or at any path, UDP or TCP) and `<input port>` (listens
 on all interfaces). Switching them off after loading is too late: file and socket are open by then. So JSBSim is given copies
-without them, in a private folder that is gone before the first step. A script names files only by plain names: its aircraft is
-one of JSBSim's own or the user's, its initial conditions lie beside it or with the aircraft, and no element refers to any other
-file. An aircraft of the user's own is copied with the files that it names, none of which lead out of the user's folder.
+without them, in a private folder that is gone before the first step. A script names files only by
+plain names: its aircraft is one of JSBSim's own or the user's, its initial conditions lie beside it
+or with the aircraft, and no element refers to any other file. An aircraft of the user's own is
+copied with the files that it names, none of which lead out of the user's folder.
 """
 
 import os
@@ -34,8 +35,8 @@ _PLAIN_NAME = re.compile(r"[\w.-]+", re.ASCII)
 def copy_script(script: Path, folder: Path, models: Path | None = None) -> tuple[ET.Element, Path]:
     """Write a quiet copy of the script and of its aircraft; gives the script's tree and the copy's path.
 
-    models: folder of a user's own aircraft. Raises InputError when the script is unreadable, not a script, or asks for an
-    aircraft that is neither JSBSim's nor there.
+    models: folder of a user's own aircraft. Raises InputError when the script is unreadable, not a
+    script, or asks for an aircraft that is neither JSBSim's nor there.
     """
     tree = _read(script, "runscript")
     _leave_out_ports(tree)
@@ -70,7 +71,8 @@ def beside(script: Path, initialize: str) -> Path | None:
 def copy_aircraft(aircraft: str, folder: Path, models: Path | None = None, initialize: str = "") -> Path:
     """Write a quiet copy of an aircraft's model and of what it needs; gives the folder of all aircraft.
 
-    It is one of JSBSim's own, or the user's in `models`, together with its initial conditions if a script asks for some.
+    It is one of JSBSim's own, or the user's in `models`, with the initial conditions that a script
+    asks for.
     """
     if models and user_model(aircraft, models):
         _copy_users(aircraft, folder, models, initialize)
@@ -92,7 +94,7 @@ def _copy_own(model: Path, folder: Path) -> None:
 
 
 def _copy_users(aircraft: str, folder: Path, models: Path, initialize: str) -> None:
-    """The user's files, and links to JSBSim's own engines and systems where the user has none of that name."""
+    """The user's files, and links to those engines and systems of JSBSim's that the user has not."""
     model = user_model(aircraft, models)
     for relative, path in user_files(aircraft, models, initialize).items():
         tree = _read(path, "fdm_config" if path == model else "")

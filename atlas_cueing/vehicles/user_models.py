@@ -1,7 +1,7 @@
 """Aircraft of a user's own, in folders as JSBSim has them: `aircraft/NAME/NAME.xml`, `engine`, `systems`.
 
-What a model names by `file="..."` is looked for with the model first, then in the user's `engine` and
-`systems`, and last among JSBSim's own. Nothing outside the user's folder is read.
+What a model names by `file="..."` is looked for with the model first, then in the user's `engine`
+and `systems`, and last among JSBSim's own. Nothing outside the user's folder is read.
 """
 
 import re
@@ -32,7 +32,7 @@ def plain_name(name: str) -> str:
 
 
 def aircraft_objection(name: str, folder: Path | None) -> str:
-    """Why an aircraft cannot be had by this name; nothing when it is one of JSBSim's own, or the user's in `folder`."""
+    """Why no aircraft is had by this name, JSBSim's own or the user's in `folder`; else nothing."""
     mine = user_model(name, folder) if folder else None
     if mine and name in own_aircraft():
         return (
@@ -46,10 +46,12 @@ def aircraft_objection(name: str, folder: Path | None) -> str:
 
 
 def user_files(name: str, folder: Path, initialize: str = "") -> dict[str, Path]:
-    """The user's files that an aircraft is made of, by their path from `folder`: what the model names and what that names.
+    """The user's files that an aircraft is made of, by their path from `folder`.
 
+    They are the model, what it names, and what that names in turn.
     initialize: name of a file of initial conditions beside the model, which a script asks for.
-    Files are looked through as bytes, not parsed. Raises InputError for too many, and for one that cannot be read.
+    Files are looked through as bytes, not parsed. Raises InputError for too many, and for one that
+    cannot be read.
     """
     home = f"aircraft/{plain_name(name)}"
     wanted = [f"{home}/{plain_name(name)}.xml"]
