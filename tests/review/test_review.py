@@ -145,7 +145,7 @@ def test_a_rewritten_log_is_the_same(flight: Path, tmp_path: Path) -> None:
         ({"platform.toml": b"name = 3"}, "the log's platform.toml"),
         ({"platform.toml": b"\xff"}, "UTF-8"),
         ({"../evil.toml": b""}, "lead nowhere else"),
-        ({"/tmp/evil.toml": b""}, "lead nowhere else"),
+        ({"/evil.toml": b""}, "lead nowhere else"),
         ({"a/../../evil.toml": b""}, "lead nowhere else"),
         ({"a//b": b""}, "lead nowhere else"),
         ({"a/" * 8 + "b": b""}, "lead nowhere else"),
