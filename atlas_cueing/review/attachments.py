@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
 
 from ..errors import LogError, ScenarioError
@@ -45,6 +45,9 @@ def as_inside(error: Exception, folder: Path) -> str:
 
 def _check(log: Log) -> None:
     files: Mapping[str, bytes] = log.attachments
+    folders = {str(folder) for name in files for folder in PurePosixPath(name).parents}
+    for name in folders & files.keys():
+        raise LogError(f"{log.path}: attachment {name[:60]!r} is a file and a folder")
     for name, content in files.items():
         if not name.isprintable() or not _stays_inside(name) or len(name.encode()) > _LONGEST_NAME:
             allowed = "allowed: names of folders and a file that lead nowhere else"

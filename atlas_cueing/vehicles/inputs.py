@@ -23,6 +23,7 @@ class _Ramp:
     """A property on its way from `start` to the input's value."""
 
     node: jsbsim.FGPropertyNode
+    stored: bool  # without acting on it
     start: float
     event: TimedInput
 
@@ -62,22 +63,22 @@ class InputPlayer:
             event = self._due.pop()
             self._move(event.time)
             node = self._nodes[event.property]
-            self._ramps[event.property] = _Ramp(node, node.get_double_value(), event)
+            stored = event.property.startswith(_STORED)
+            self._ramps[event.property] = _Ramp(node, stored, node.get_double_value(), event)
         moving = bool(self._ramps)
         self._move(time)
         return moving
 
     def _move(self, time: float) -> None:
         for name, ramp in list(self._ramps.items()):
-            self._set(name, ramp, time)
+            if ramp.stored:
+                ramp.node.set_double_value(ramp.value(time))
+            else:
+                self._set(name, ramp.value(time), time)
             if time >= ramp.event.time + ramp.event.ramp - _TIME_TOLERANCE:
                 del self._ramps[name]
 
-    def _set(self, name: str, ramp: _Ramp, time: float) -> None:
-        value = ramp.value(time)
-        if name.startswith(_STORED):
-            ramp.node.set_double_value(value)
-            return
+    def _set(self, name: str, value: float, time: float) -> None:
         try:
             self._fdm[name] = value
         except JSBSIM_ERRORS as error:

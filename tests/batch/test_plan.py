@@ -43,7 +43,7 @@ def test_mistakes_of_all_files_together_before_anything(tmp_path: Path) -> None:
 def test_a_platform_that_cannot_be_driven_is_refused_before_anything(tmp_path: Path) -> None:
     same = "\n".join(f"platform.wheel.{i}.contact = [[1, 0, 0]]\nplatform.wheel.{i}.drive = [[0, 1, 0]]" for i in (0, 1))
     text = SWEEP + same
-    with pytest.raises(InputError, match=r"sweep\.toml: platform .* kinematic slip condition"):
+    with pytest.raises(InputError, match=r"sweep\.toml: --set: wheel: platform .* kinematic slip condition"):
         planned(tmp_path, text=text)
 
 

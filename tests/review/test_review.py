@@ -144,7 +144,13 @@ def test_a_rewritten_log_is_the_same(flight: Path, tmp_path: Path) -> None:
     [
         ({"platform.toml": b"name = 3"}, "the log's platform.toml"),
         ({"platform.toml": b"\xff"}, "UTF-8"),
-        ({"../evil.toml": b""}, "allowed: a plain file name"),
+        ({"../evil.toml": b""}, "lead nowhere else"),
+        ({"/evil.toml": b""}, "lead nowhere else"),
+        ({"a/../../evil.toml": b""}, "lead nowhere else"),
+        ({"a//b": b""}, "lead nowhere else"),
+        ({"a/" * 8 + "b": b""}, "lead nowhere else"),
+        ({"platform.toml/b": b""}, "is a file and a folder"),
+        ({"a": b"", "a/b/c": b""}, "is a file and a folder"),
         ({"big": bytes(2 << 20)}, "allowed: at most"),
     ],
 )
