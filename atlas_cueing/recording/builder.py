@@ -77,20 +77,21 @@ class LogBuilder:
         """Keep a record of metadata."""
         self._metadata[name] = dict(pairs)
 
-    def add_messages(self, data: bytes, index: Starts, *, checked: bool = False) -> None:
+    def add_messages(self, data: bytes, index: Starts, *, checked: bool = False, all_or_none: bool = False) -> None:
         """Read the records of a chunk, or of a stretch of messages outside of chunks.
 
         index: offsets of the messages by channel, as the log has them; may be empty or wrong.
         checked: whether a checksum of their own was right.
-        Raises LogError, before anything is kept, where a message cannot be read.
+        all_or_none: whether nothing is kept where a message cannot be read; else what came before it may be.
+        Raises LogError where a message cannot be read.
         """
         found = {channel: starts for channel, starts in message_starts(data, index, self._describe).items() if len(starts)}
-        decoded = [self._decoded(channel, data, starts) for channel, starts in found.items()]
+        decoded = (self._decoded(channel, data, starts) for channel, starts in found.items())
+        for keep in list(decoded) if all_or_none else decoded:
+            keep()
         for channel, starts in found.items():
             self._counts[channel] = self._counts.get(channel, 0) + len(starts)
         self._unchecked = self._unchecked or not checked
-        for keep in decoded:
-            keep()
 
     def check_counts(self, expected: Mapping[int, int]) -> None:
         """Compare with the log's own statistics. Raises LogError when messages are missing."""

@@ -159,7 +159,7 @@ def _add_piece(builder: LogBuilder, data: bytes, found: Salvage, *, loose: bool)
     content = data if loose else unpack(Chunk.read(stream(data)))
     starts = [start for start, _, _ in _messages(content)] if loose else []
     try:
-        builder.add_messages(content, {}, checked=True)  # or it is said in other words
+        builder.add_messages(content, {}, checked=True, all_or_none=True)  # or it is said in other words
     except BROKEN as error:
         if len(starts) > 1:
             for start, end in pairwise([*starts, len(content)]):
