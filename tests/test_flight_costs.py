@@ -169,7 +169,7 @@ def test_help_loads_no_more_than_the_command_line(tmp_path: Path) -> None:
     assert loaded & (HEAVY | NUMBERS) == set()
     assert {name for name in loaded if name.startswith("atlas_cueing.")} <= {
         f"atlas_cueing.{name}"
-        for name in ("cli", "errors", *(f"cli.{file.stem}" for file in (ROOT / "atlas_cueing/cli").glob("*.py")))
+        for name in ("cli", "errors", "printable", *(f"cli.{file.stem}" for file in (ROOT / "atlas_cueing/cli").glob("*.py")))
     }
 
 

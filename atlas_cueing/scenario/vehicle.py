@@ -89,7 +89,7 @@ def _known_script(value: Any, info: ValidationInfo) -> str:
     if isinstance(value, str) and value in own_scripts():
         return value
     folder: Path = (info.context or {})["folder"]
-    if isinstance(value, str) and value.isprintable() and within(folder, value):
+    if isinstance(value, str) and is_name(value) and within(folder, value):
         return value
     return _known("scripts, or a file in the scenario's folder (links resolved)", own_scripts(), value)
 
