@@ -75,6 +75,7 @@ def _numbers(container: Container, topic: str, table: Table) -> _Stream:
     template = flat_template(channel, len(table.fields))
 
     def encode(rows: slice) -> list[bytes]:
+        """Encode the numbers of these rows as message records."""
         records = repeat(template, len(table.values[rows]))
         records["log_time"] = records["publish_time"] = table.log_times[rows]
         put(records, table.values[rows])
@@ -88,6 +89,7 @@ def _poses(container: Container, table: Table) -> _Stream:
     template = transform_template(channel)
 
     def encode(rows: slice) -> list[bytes]:
+        """Encode the poses of these rows as message records."""
         records = repeat(template, len(table.values[rows]))
         put_transforms(records, table.log_times[rows], table.values[rows, 3:], table.values[rows, :3])
         return _each(records)

@@ -12,6 +12,8 @@ from .rig import Rig
 
 DT = 0.01
 
+REMEDY = "what helps: --priority, a lower --rate, fewer programs beside it"
+
 
 def run(delays: dict[int, float], ticks: int = 60, costs: dict[int, float] | None = None) -> Rig:
     """A loop whose wait before tick k (from 1) takes delays[k] s too long, and whose tick k takes costs[k] s; then it ends."""
@@ -85,7 +87,7 @@ def test_more_than_20_ms_late_is_a_fault() -> None:
     assert rig.conductor.ended.result == "fault"
     (time, _, reason), *_ = [status for status in rig.tape.statuses if status[1] == "fault_stopping"]
     assert time == pytest.approx(40 * DT)
-    assert reason == "a tick began 20.1 ms late, allowed: at most 20 ms"
+    assert reason == f"a tick began 20.1 ms late, allowed: at most 20 ms; {REMEDY}"
 
 
 def test_five_missed_in_a_row_are_borne_and_six_are_not() -> None:
@@ -95,7 +97,7 @@ def test_five_missed_in_a_row_are_borne_and_six_are_not() -> None:
     assert rig.loop.timing.longest_row == 6
     (fault,) = [status for status in rig.tape.statuses if status[1] == "fault_stopping"]
     assert fault[0] == pytest.approx(35 * DT)
-    assert fault[2] == "6 deadlines missed in a row, allowed: at most 5"
+    assert fault[2] == f"6 deadlines missed in a row, allowed: at most 5; {REMEDY}"
 
 
 def test_states_are_told_before_their_first_tick() -> None:
