@@ -180,7 +180,7 @@ def test_a_topic_that_lost_more_than_the_others_is_told(log: Path, tmp_path: Pat
 
 
 def test_a_file_with_nothing_of_ours_is_refused(tmp_path: Path) -> None:
-    from recording.test_layouts import written
+    from recording.test_foreign_schemas import written
 
     channel = ("/motion", "json", "atlas.Motion", "jsonschema", b"{}", [b"{}"] * 3)
     path = written(tmp_path / "x.mcap", channel)
