@@ -14,10 +14,11 @@ from typing import Any
 
 import pytest
 
-from atlas_cueing.cueing.horizon_law import Plan
-from atlas_cueing.cueing.horizon_problem import HorizonProblem
+from atlas_cueing.cueing.stage.mpc_qp import HorizonProblem
+from atlas_cueing.cueing.stage.mpc_unconstrained import Plan
 from atlas_cueing.recording import McapRecorder
-from atlas_cueing.scenario import Scenario, build, load_scenario
+from atlas_cueing.run import build
+from atlas_cueing.scenario import Scenario, load_scenario
 from atlas_cueing.signals import Tick, VehicleState
 from atlas_cueing.vehicles import JsbsimVehicle
 

@@ -8,9 +8,15 @@ import numpy as np
 import pytest
 from frequency_tool import ROOT, tool
 
-from atlas_cueing.cueing import AttitudeParameters, BlendParameters, ClassicalParameters, ForceParameters
-from atlas_cueing.scenario import Scenario, build, load_scenario
-from atlas_cueing.scenario.cueing import METHODS
+from atlas_cueing.cueing import (
+    AttitudeParameters,
+    BlendParameters,
+    ClassicalParameters,
+    ForceParameters,
+)
+from atlas_cueing.run import build
+from atlas_cueing.scenario import Scenario, load_scenario
+from atlas_cueing.scenario.cueing_table import METHODS
 from atlas_cueing.signals import STANDARD_GRAVITY as G
 
 SWEEP = ROOT / "scenarios" / "signal_sweep.toml"

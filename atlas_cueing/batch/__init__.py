@@ -5,30 +5,23 @@ A batch is planned (`plan`), what is missing is flown (`fly_batch`) by processes
 table.
 """
 
-from .batch import Fly, Outcome, fly_batch, missing
 from .cluster import on_cluster
-from .interrupt import Interrupt
-from .order import Limits
-from .output import PAGE, check_output
+from .fly_batch import Fly, Outcome, fly_batch, missing
+from .job import Limits
+from .job_result import Record
 from .overview import overview
 from .plan import PlannedRun, plan
-from .record import Record
-from .results import Results, check_results, results_at
-from .run import RunResult, run_scenario
+from .pool import fly_here
+from .store import Results, check_results, results_at
 from .table import csv_of, metric_names, ordered, rows
-from .workers import fly_here
 
 __all__ = [
-    "PAGE",
     "Fly",
-    "Interrupt",
     "Limits",
     "Outcome",
     "PlannedRun",
     "Record",
     "Results",
-    "RunResult",
-    "check_output",
     "check_results",
     "csv_of",
     "fly_batch",
@@ -41,5 +34,4 @@ __all__ = [
     "plan",
     "results_at",
     "rows",
-    "run_scenario",
 ]

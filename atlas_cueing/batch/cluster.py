@@ -20,9 +20,9 @@ from time import sleep
 from typing import Any
 
 from ..errors import InputError, MissingExtraError
-from .order import Order
-from .record import Record
-from .workers import ATTEMPTS, Stop, Worker, lost
+from .job import Order
+from .job_result import Record
+from .pool import ATTEMPTS, Stop, Worker, lost
 
 LOCAL = "local"  # in place of an address: a scheduler and workers on 127.0.0.1, for this batch only
 _UNDER_WAY = 2000  # runs that the scheduler knows at a time; it needs some 10 kB for each

@@ -6,10 +6,10 @@ from math import isfinite
 from typing import Any
 from urllib.parse import quote
 
+from ..atomic_file import PAGE_BEGINS
 from ..printable import html_text
-from ..recording.whole_file import PAGE_BEGINS
 from .heading import Heading, length_of
-from .look import SCRIPT, STYLE
+from .page_assets import SCRIPT, STYLE
 from .picture import parameters, picture
 from .table import NOT_FLOWN, Row
 

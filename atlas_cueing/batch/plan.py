@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, ScenarioError
-from ..scenario import Scenario, Variant, build, load_variants, scenario_files
+from ..run import build
+from ..scenario import Scenario, Variant, load_variants, scenario_files
 from ..vehicles import own_scripts
 from .run_id import run_id
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..evaluation import Flight, metrics
-from .batch import Outcome
+from .fly_batch import Outcome
 
 Array = NDArray[np.float64]
 

@@ -94,7 +94,8 @@ def batch(
     The folder gets RUN.mcap and RUN.json for each run, summary.csv and index.html. Exit status 0: all flown, every limit kept.
     1: a run has a finding, or the batch was stopped. 2: bad input, nothing was written.
     """
-    from ..batch import Interrupt, Limits, check_results, fly_batch, missing, plan, results_at
+    from ..batch import Limits, check_results, fly_batch, missing, plan, results_at
+    from ..run import Interrupt
 
     _check_metric(sort)
     if pages:
@@ -142,7 +143,7 @@ def _plan_text(runs: "Sequence[PlannedRun]", todo: "Sequence[PlannedRun]") -> st
 def _write(outcomes: "Sequence[Outcome]", results: "Results", sort: str) -> list[Mapping[str, Any]]:
     """Table and overview, also of a batch that was stopped; gives the table."""
     from ..batch import csv_of, ordered, overview, rows
-    from ..batch.results import INDEX, SUMMARY
+    from ..batch.store import INDEX, SUMMARY
 
     table = ordered(rows(outcomes), sort)
     results.write(SUMMARY, csv_of(table).encode(errors="replace"))
@@ -155,7 +156,7 @@ def _write(outcomes: "Sequence[Outcome]", results: "Results", sort: str) -> list
 def _write_pages(outcomes: "Sequence[Outcome]", results: "Results") -> None:
     """The review of each complete log that has none yet, beside it."""
     from ..review import review
-    from ..review.page import write_page
+    from ..review.report import write_page
 
     there = results.names()
     for record in (outcome.record for outcome in outcomes if outcome.record):

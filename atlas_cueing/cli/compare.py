@@ -38,14 +38,14 @@ def compare(
     Exit status 0: all are clean. 1: one has a finding or cannot be read. 2: bad usage, or logs of different flights.
     """
     from ..review import compare as compared
-    from .page import check_pages
+    from .open_page import check_pages
     from .text import one_json, say
 
     if html:
         (html,) = check_pages([html], inputs=logs, force=force)
     comparison = compared(logs, different_flights=different_flights)
     if html:
-        from ..review.page import write_comparison
+        from ..review.report import write_comparison
 
         write_comparison(comparison, html)
     typer.echo(one_json(comparison.to_json()) if as_json else comparison_table(comparison))

@@ -83,9 +83,9 @@ def live(
     Exit status 0: flown and parked, every limit kept. 1: a fault, or the vehicle or its input failed; the log is complete. 2:
     bad input, nothing was written.
     """
-    from ..batch import check_output
-    from ..live.ending import ending
     from ..live.session import LiveOptions, LiveSession
+    from ..live.stop_signals import ending
+    from ..run import check_output
     from ..scenario import load_scenario
     from .live_extras import drives, followers
     from .summary import end, live_summary

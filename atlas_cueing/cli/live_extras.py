@@ -24,7 +24,7 @@ def followers(session: "LiveSession", scenario: "Scenario", view_port: int | Non
     """Processes that follow the ring; a port of None is not served. Each tells on stderr where it is."""
     with ExitStack() as stack:
         if view_port is not None:
-            from ..live.states import allowed_buttons
+            from ..live.control.state_machine import allowed_buttons
             from ..viewer import ViewerProcess
 
             press, allowed = session.buttons.press, allowed_buttons()
@@ -32,7 +32,7 @@ def followers(session: "LiveSession", scenario: "Scenario", view_port: int | Non
             stack.enter_context(viewer)
             say(f"view: {viewer.url}")
         if foxglove_port is not None:
-            from ..live.foxglove import FoxgloveProcess
+            from ..live.output.foxglove_server import FoxgloveProcess
 
             server = FoxgloveProcess(session.ring, foxglove_port, scenario.platform.head_S, session.started_ns)
             stack.callback(server.close)
@@ -48,7 +48,7 @@ def drives(setpoints: str | None, key_file: Path | None) -> Iterator[Sequence["D
             raise InputError("--key is for --setpoints HOST:PORT, which is missing")
         yield ()
         return
-    from ..live.setpoint import SetPointSender
+    from ..live.output.setpoint import SetPointSender
 
     host, port = _address(setpoints)
     with closing(SetPointSender(host, port, key=_key(key_file) if key_file else b"")) as sender:

@@ -28,8 +28,8 @@ def recover(
 
     Exit status 0: written. 1: nothing in it can be recovered. 2: bad usage, nothing was written.
     """
-    from ..batch import check_output
     from ..review import recover as recovered
+    from ..run import check_output
     from .text import aligned, one_json
 
     result = recovered(broken, check_output(output, inputs=[broken], force=force))

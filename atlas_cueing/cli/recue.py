@@ -33,9 +33,9 @@ def recue(
 
     Exit status 0: written and clean. 1: the new log has a finding, or the old one is damaged. 2: bad input, nothing written.
     """
-    from ..batch import check_output
     from ..review import recue as recued
     from ..review import review as judged
+    from ..run import check_output
     from .review import review_summary
     from .text import one_json
 

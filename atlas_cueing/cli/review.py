@@ -47,7 +47,7 @@ def review(
     """
     from ..review import advice
     from ..review import review as judged
-    from .page import check_pages
+    from .open_page import check_pages
     from .text import one_json
 
     if html or replay:
@@ -60,7 +60,7 @@ def review(
         todo = advice(log)
         raise LogError(f"{error}; {todo}" if todo else str(error)) from error
     if html:
-        from ..review.page import write_page
+        from ..review.report import write_page
 
         write_page(found, html)
     if replay:

@@ -31,7 +31,7 @@ def run(
     complete up to there. 2: bad input, nothing was written.
     """
     # Loading JSBSim, scipy and the rest takes far longer than --help should.
-    from ..batch import check_output, run_scenario
+    from ..run import check_output, run_scenario
     from ..scenario import load_scenario
     from .progress import shown_progress
     from .summary import end, run_summary

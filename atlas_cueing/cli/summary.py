@@ -10,9 +10,9 @@ from ..wheels import headroom
 from .text import aligned, say
 
 if TYPE_CHECKING:  # what is shown has been loaded by whoever made it
-    from ..batch import RunResult
     from ..live.session import LiveResult
     from ..rotation import Mat3, Vec3
+    from ..run import RunResult
     from ..scenario import Platform
 
 # Rows of the table: title, metric, unit of the metric, unit shown, factor.

@@ -5,7 +5,6 @@ Nothing is ever washed out to neutral.
 """
 
 from .cueing import Cueing, Cues, RotationMethod, build
-from .jumps import attitude_jump
 from .parameters import (
     CLASSICAL_STAGE,
     AttitudeParameters,
@@ -33,6 +32,5 @@ __all__ = [
     "RotationMethod",
     "SlowTurnParameters",
     "StageParameters",
-    "attitude_jump",
     "build",
 ]

@@ -18,7 +18,7 @@ from .parameters import (
     MethodParameters,
     StageParameters,
 )
-from .stage import StageCueing
+from .stage.stage_cueing import StageCueing
 
 RotationMethod: TypeAlias = AttitudeRotation | BlendRotation | ClassicalRotation | ForceRotation
 """How the sphere follows the vehicle: `step` gives orientation q_WS and rate w_WS_W (rad/s) for a vehicle state."""

@@ -8,7 +8,21 @@ the cabin with u' = -w x u, so u is turned towards a force f by the rate (f x u)
 
 from math import atan2, pi
 
-from ..rotation import ZERO, Quat, Vec3, add, cross, dot, flip, multiply, norm, rotate, scale, shortest_arc, up_in_body
+from ..rotation import (
+    ZERO,
+    Quat,
+    Vec3,
+    add,
+    cross,
+    dot,
+    flip,
+    multiply,
+    norm,
+    rotate,
+    scale,
+    shortest_arc,
+    up_in_body,
+)
 from ..signals import VehicleState
 from .cabin import upright
 from .damping import DampedVector

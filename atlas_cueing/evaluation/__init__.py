@@ -2,10 +2,10 @@
 
 from .consistency import Consistency, consistency, reintegrate
 from .deviation import vehicle_attitude
-from .flight import BLOCK_TICKS, Columns, Flight, gathered
-from .limits import LimitUse, limit_use, violations
+from .engaged_segment import ridden
+from .limit_use import LimitUse, limit_use, violations
 from .metrics import Metrics, metrics
-from .ridden import ridden
+from .run_columns import BLOCK_TICKS, Columns, Flight, gathered
 
 __all__ = [
     "BLOCK_TICKS",

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .flight import Array, Flight, Tail, gathered
-from .quaternions import accumulated, exp, geodesic
+from ..rotations import accumulated, exp, geodesic
+from .run_columns import Array, Flight, Tail, gathered
 from .statistics import Peaks
 
 

@@ -5,7 +5,7 @@ from math import hypot
 
 from ..cueing import PreviewParameters
 from .deviation import deviation
-from .flight import Flight
+from .run_columns import Flight
 
 _UNITS = PreviewParameters()
 

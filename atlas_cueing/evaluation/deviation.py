@@ -3,9 +3,9 @@
 import numpy as np
 
 from ..rotation import conjugate, from_euler, to_euler
+from ..rotations import geodesic, multiply
 from ..signals import STANDARD_GRAVITY, direction_error
-from .flight import Array, Flight, gathered
-from .quaternions import geodesic, multiply
+from .run_columns import Array, Flight, gathered
 from .statistics import Magnitudes, Spread, distance, length
 
 DIRECTION_FORCE = 0.1 * STANDARD_GRAVITY

@@ -4,12 +4,12 @@ from math import inf
 
 import numpy as np
 
+from .actuation import Effort
+from .coriolis import Turning
 from .cost import cost_of
 from .deviation import Deviation
-from .effort import Effort
-from .flight import Flight, gathered
-from .likeness import Likeness
-from .turning import Turning
+from .fidelity import Likeness
+from .run_columns import Flight, gathered
 
 
 class Metrics:

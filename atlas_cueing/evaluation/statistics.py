@@ -5,7 +5,7 @@ from math import isnan
 import numpy as np
 from numpy.typing import NDArray
 
-from .flight import Array
+from .run_columns import Array
 
 
 def length(v: Array) -> Array:

@@ -12,8 +12,8 @@ from typing import Protocol
 from ..signals import Tick
 from ..signals import Timing as TickTiming
 from .clock import Clock
-from .conductor import Conductor
-from .guard import Command
+from .control.controller import Conductor
+from .control.guard import Command
 from .timing import Timing
 
 LEAD = 0.008  # s from a tick's deadline to the time its set point is for; what a drive may use up of it is jitter

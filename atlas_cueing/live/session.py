@@ -8,18 +8,20 @@ from importlib.metadata import version
 from pathlib import Path
 
 from ..errors import InputError
-from ..recording import LiveWriter, McapRecorder, Ring, live_ring
-from ..recording.buttons import Buttons
-from ..scenario import Evaluation, Scenario, build, evaluate
+from ..recording import McapRecorder
+from ..run import Evaluation, build, evaluate
+from ..scenario import Scenario
+from ..telemetry import LiveWriter, Ring, live_ring
+from ..telemetry.operator_buttons import Buttons
 from .clock import MonotonicClock
-from .conductor import Conductor, Wishes
-from .guard import Guard
+from .control.controller import Conductor, Wishes
+from .control.guard import Guard
+from .control.platform_controller import Ride, no_vehicle
+from .input.source import Source
 from .loop import Drives, Loop
-from .opening import open_source
-from .punctual import Punctual, collections, punctual
-from .recorder_process import RecorderProcess
-from .ride import Ride, no_vehicle
-from .source import Source
+from .open_source import open_source
+from .output.recorder_process import RecorderProcess
+from .realtime import Punctual, collections, punctual
 
 RATES = (100.0, 1000.0)  # Hz, lowest and highest of the loop
 DEFAULT_RATE = 500.0  # Hz

@@ -10,6 +10,7 @@ from struct import Struct
 
 import numpy as np
 
+from ..atomic_file import Destination
 from ..errors import OutputError
 from ..printable import utf8
 from ..rotation import Vec3
@@ -17,7 +18,6 @@ from ..signals import LIVE_TOPICS, TOPICS, Tick, tick_row
 from .chunk import ELAPSED, LIVE_ROW, ROW, ChunkEncoder, Extra, with_felt
 from .container import Container
 from .schemas import STATUS, STATUS_SCHEMA, TF, message_class, schema_of, status_schema
-from .whole_file import Destination
 from .wire import EPOCH_NS, LATEST_S, Array, Times, live_log_times, log_times, record_template
 
 RUN_METADATA = "atlas.run"

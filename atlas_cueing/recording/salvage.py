@@ -10,6 +10,7 @@ from typing import BinaryIO
 import numpy as np
 from mcap.records import Channel, Chunk
 
+from ..atomic_file import Destination
 from ..errors import LogError
 from ..signals import TOPICS
 from .builder import LogBuilder
@@ -21,7 +22,6 @@ from .log_writer import write_log
 from .record_walk import check_data, walk
 from .recorder import RUN_METADATA
 from .salvaged import BROKEN, Salvage, TooLargeError, stream
-from .whole_file import Destination
 from .wire import MESSAGE_OPCODE, RECORD_HEAD
 
 MAX_SEARCHED = 256 * 2**20  # bytes that are no record, in which chunks are looked for; 10 GB of them would take a minute

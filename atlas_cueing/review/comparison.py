@@ -8,7 +8,7 @@ import numpy as np
 
 from ..errors import InputError
 from .recorded_run import RecordedRun
-from .review import Review, review
+from .verdict import Review, review
 
 
 @dataclass(frozen=True, slots=True)

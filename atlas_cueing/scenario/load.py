@@ -11,14 +11,14 @@ from pydantic import ValidationError
 
 from ..errors import Mistake, ScenarioError
 from ..printable import is_name
-from .cueing import ALL_METHODS, DEFAULT_METHOD
+from .cueing_table import ALL_METHODS, DEFAULT_METHOD
 from .mistakes import MOST_SHOWN, SET, FileNamer, Key, dotted, mistakes_of, more, nearest
 from .overrides import Overrides, apply_overrides, parse_overrides, with_own
-from .platform import Platform, presets
+from .platform_file import Platform, presets
 from .reading import TomlFiles, read_toml
 from .scenario import Scenario, ScenarioFile
-from .table import Table
-from .vehicle import unsettable_inputs, vehicle_rules
+from .tables import Table
+from .vehicle_table import unsettable_inputs, vehicle_rules
 
 T = TypeVar("T", bound=Table)
 

@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from ..errors import Mistake
-from .table import Table, tables_in
+from .tables import Table, tables_in
 
 _KINDS = {"model_type": "a table", "bool_type": "true or false", "string_type": "a string"}  # pydantic's names
 

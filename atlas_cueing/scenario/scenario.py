@@ -13,13 +13,13 @@ from pydantic import BeforeValidator
 from ..errors import InputError, StartError
 from ..printable import is_name, utf8
 from ..recording.recorder import MAX_CHUNK_TICKS
-from ..vehicles.private_copy import beside
-from ..vehicles.user_models import read_users, user_files, user_model
-from .cueing import BlendTable, CueingTable, PreviewTable
+from ..vehicles.jsbsim.private_copy import beside
+from ..vehicles.jsbsim.user_models import read_users, user_files, user_model
+from .cueing_table import BlendTable, CueingTable, PreviewTable
 from .mistakes import FileNamer, nearest
-from .platform import NAME, Platform, presets
-from .table import Table, number, object_to, refuse, text, whole
-from .vehicle import Flight, LiveFlight, VehicleTable
+from .platform_file import NAME, Platform, presets
+from .tables import Table, number, object_to, refuse, text, whole
+from .vehicle_table import Flight, LiveFlight, VehicleTable
 
 # The other topics are what the run is evaluated from.
 DISPENSABLE_TOPICS = ("/tf",)

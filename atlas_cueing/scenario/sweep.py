@@ -24,14 +24,14 @@ from pydantic import ValidationError
 
 from ..errors import Mistake, ScenarioError
 from ..vehicles import own_aircraft, own_scripts
-from .cueing import METHODS
+from .cueing_table import METHODS
 from .load import Known, resolve
 from .mistakes import SET, FileNamer, Key, dotted, mistakes_of, more, nearest, shown
 from .overrides import Overrides, apply_overrides, parse_overrides, with_own
-from .platform import presets
+from .platform_file import presets
 from .reading import count_keys, read_toml
 from .scenario import Scenario
-from .table import Finite, Table, whole
+from .tables import Finite, Table, whole
 
 MAX_RUNS = 10_000  # of one file; a grid of a few more keys than meant has millions, and all are checked before the first flies
 MAX_KEYS_CHECKED = 500_000  # keys of the file times runs: up to 2 us and 130 bytes each

@@ -1,5 +1,6 @@
 """The data that flows, one way: VehicleState -> Cue -> Motion -> WheelSpeeds, gathered in one Tick."""
 
+from .attitude_jump import attitude_jump
 from .felt import STANDARD_GRAVITY, direction_error, felt
 from .limits import StageLimits, WheelLimits
 from .seams import Sink, Vehicle, WheelDrive
@@ -24,6 +25,7 @@ __all__ = [
     "WheelDrive",
     "WheelLimits",
     "WheelSpeeds",
+    "attitude_jump",
     "direction_error",
     "felt",
     "live_row",

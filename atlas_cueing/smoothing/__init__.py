@@ -11,4 +11,10 @@ from .sphere import SphereSmoothing
 from .stage import StageSmoothing
 from .stop import Stop
 
-__all__ = ["Axis", "Smoothing", "SphereSmoothing", "StageSmoothing", "Stop"]
+__all__ = [
+    "Axis",
+    "Smoothing",
+    "SphereSmoothing",
+    "StageSmoothing",
+    "Stop",
+]

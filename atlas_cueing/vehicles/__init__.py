@@ -7,13 +7,13 @@ elsewhere.
 
 from .bounds import Bounds
 from .flightgear import FlightgearFlight
-from .flights import AircraftFlight, InitialConditions, ScriptFlight, TimedInput
 from .flown_ahead import FlownAhead
-from .jsbsim_vehicle import JsbsimVehicle
-from .library import own_aircraft, own_scripts, suggestion
-from .loading import input_objections
-from .recorded import RecordedVehicle
-from .signal import Signal, SignalFlight, SignalVehicle
+from .jsbsim.flights import AircraftFlight, InitialConditions, ScriptFlight, TimedInput
+from .jsbsim.jsbsim_vehicle import JsbsimVehicle
+from .jsbsim.library import own_aircraft, own_scripts, suggestion
+from .jsbsim.loading import input_objections
+from .recorded_vehicle import RecordedVehicle
+from .signal_vehicle import Signal, SignalFlight, SignalVehicle
 
 __all__ = [
     "AircraftFlight",

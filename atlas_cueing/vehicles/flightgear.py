@@ -22,7 +22,7 @@ from ..errors import AtlasError
 from ..rotation import Vec3, from_euler
 from ..signals import STANDARD_GRAVITY, VehicleState
 from .bounds import Bounds
-from .readings import METRES_PER_FOOT
+from .jsbsim.readings import METRES_PER_FOOT
 
 VERSION = 24
 PACKET_BYTES = 408

@@ -8,8 +8,8 @@ import numpy as np
 from ..recording.chunk import LIVE_ROW, felt_columns
 from ..rotation import Vec3
 from ..signals import LIVE_TOPICS
-from .plots import Traces
-from .recorded import wheel_angles
+from .live_plots import Traces
+from .recorded_motion import wheel_angles
 from .scene import Pose
 from .shapes import Array
 

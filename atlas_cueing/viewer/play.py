@@ -10,8 +10,8 @@ import numpy as np
 from ..evaluation import Flight
 from ..scenario import Platform
 from .forces import largest_g
-from .plots import Plots, Traces
-from .recorded import RecordedMotion
+from .live_plots import Plots, Traces
+from .recorded_motion import RecordedMotion
 from .scene import KEY, Scene
 from .server import check_viser, close_server, open_server, url_of
 

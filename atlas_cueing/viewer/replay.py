@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..atomic_file import write_page
 from ..errors import OutputError
 from ..evaluation import Flight
-from ..recording.whole_file import write_page
 from ..scenario import Platform
 from .forces import largest_g
-from .recorded import RecordedMotion
+from .recorded_motion import RecordedMotion
 from .scene import Scene
 from .server import check_viser, close_server, open_server
 from .shapes import Array

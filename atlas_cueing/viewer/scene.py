@@ -8,11 +8,11 @@ import numpy as np
 
 from ..rotation import exp, multiply
 from ..scenario import Platform
-from .cabin import draw_cabin
+from .cabin_model import draw_cabin
 from .forces import USUAL, ForceArrow, ForceScale
 from .shapes import Array
-from .stage import Stage, draw_stage
-from .wheels import draw_wheels
+from .stage_model import Stage, draw_stage
+from .wheel_models import draw_wheels
 
 if TYPE_CHECKING:
     from viser import ViserServer

@@ -4,4 +4,12 @@ from .drive import Wheels
 from .geometry import LARGEST_CONDITION_NUMBER, TANGENT_TOLERANCE, Geometry, OmniWheel
 from .headroom import Headroom, headroom
 
-__all__ = ["LARGEST_CONDITION_NUMBER", "TANGENT_TOLERANCE", "Geometry", "Headroom", "OmniWheel", "Wheels", "headroom"]
+__all__ = [
+    "LARGEST_CONDITION_NUMBER",
+    "TANGENT_TOLERANCE",
+    "Geometry",
+    "Headroom",
+    "OmniWheel",
+    "Wheels",
+    "headroom",
+]

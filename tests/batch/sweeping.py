@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from atlas_cueing.batch import workers
-from atlas_cueing.batch.alone import fly_alone
-from atlas_cueing.batch.order import Limits, Order
+from atlas_cueing.batch import pool as workers
+from atlas_cueing.batch.execute import fly_alone
+from atlas_cueing.batch.job import Limits, Order
+from atlas_cueing.batch.job_result import Record, keep, kept
 from atlas_cueing.batch.plan import PlannedRun, plan
-from atlas_cueing.batch.record import Record, keep, kept
-from atlas_cueing.batch.results import results_at
+from atlas_cueing.batch.store import results_at
 
 SWEEP = """
 name = "short"

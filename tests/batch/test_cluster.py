@@ -15,11 +15,11 @@ import pytest
 from atlas_cueing.batch import cluster as cluster_module
 from atlas_cueing.batch import fly_batch, fly_here, on_cluster
 from atlas_cueing.batch.cluster import LOCAL, fly_order
-from atlas_cueing.batch.folder import FolderResults
+from atlas_cueing.batch.folder_store import FolderResults
 from atlas_cueing.errors import InputError
 
 from .sweeping import LIMITS, order, planned
-from .test_batch import hashes
+from .test_fly_batch import hashes
 
 
 @pytest.fixture(scope="module")

@@ -7,11 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from atlas_cueing.batch.run import run_scenario
 from atlas_cueing.evaluation import BLOCK_TICKS, Flight, consistency, limit_use, metrics
 from atlas_cueing.recording import Log, McapRecorder, read_log
 from atlas_cueing.review import review
-from atlas_cueing.scenario import Evaluator, Scenario, evaluate, load_platform
+from atlas_cueing.run import Evaluator, evaluate
+from atlas_cueing.run.fly import run_scenario
+from atlas_cueing.scenario import Scenario, load_platform
 from atlas_cueing.signals import LIVE_TOPICS, TOPICS
 
 from .conftest import Load

@@ -3,9 +3,9 @@ from io import StringIO
 from math import nan
 from pathlib import Path
 
-from atlas_cueing.batch.alone import fly_alone
-from atlas_cueing.batch.batch import Outcome
-from atlas_cueing.batch.record import Record
+from atlas_cueing.batch.execute import fly_alone
+from atlas_cueing.batch.fly_batch import Outcome
+from atlas_cueing.batch.job_result import Record
 from atlas_cueing.batch.table import columns, csv_of, metric_names, ordered, rows
 
 from .sweeping import order, planned

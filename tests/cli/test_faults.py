@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from atlas_cueing.batch import run as run_module
 from atlas_cueing.recording import read_log
+from atlas_cueing.run import fly as run_module
 
 from .conftest import SCRIPT, Command
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from waiting import until
 
-from atlas_cueing.live.setpoint import decode
+from atlas_cueing.live.output.setpoint import decode
 from atlas_cueing.recording import read_log
 
 from .conftest import Command

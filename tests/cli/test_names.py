@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from atlas_cueing.recording import read_log
-from atlas_cueing.scenario.platform import presets
+from atlas_cueing.scenario.platform_file import presets
 from atlas_cueing.vehicles import own_scripts
 
 from .conftest import SCRIPT, Command

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from atlas_cueing.recording import whole_file
+from atlas_cueing import atomic_file as whole_file
 
 from .conftest import Command
 

@@ -101,7 +101,7 @@ def test_a_vehicle_that_fails(command: Command, tmp_path: Path) -> None:
 
 def test_a_violation_is_a_finding(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
-        import_module("atlas_cueing.scenario.evaluate"), "violations", lambda _: ["wheel_speed_logged = 1.5 of the limit"]
+        import_module("atlas_cueing.run.evaluate"), "violations", lambda _: ["wheel_speed_logged = 1.5 of the limit"]
     )
     ended = command("run", "s.toml")
     assert ended.status == 1

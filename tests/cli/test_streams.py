@@ -12,15 +12,16 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from review.test_page import own_part
+from review.test_report import own_part
 
 from atlas_cueing.cli import main
 from atlas_cueing.cli.progress import shown_progress
 from atlas_cueing.cli.streams import SafeStream, safe_streams
 from atlas_cueing.errors import PrintError
-from atlas_cueing.live import ring_recorder
+from atlas_cueing.live.output import ring_recorder
 from atlas_cueing.recording import McapRecorder, read_log
-from atlas_cueing.scenario import load_scenario, prepare, recorded_vehicle
+from atlas_cueing.run import prepare
+from atlas_cueing.scenario import load_scenario, recorded_vehicle
 
 from .conftest import Command
 from .test_progress import Terminal

@@ -1,9 +1,9 @@
 from math import inf, pi
 from pathlib import Path
 
-from atlas_cueing.batch import RunResult
 from atlas_cueing.cli.summary import kinematics, platform_summary, run_summary
-from atlas_cueing.scenario import Evaluation, load_platform
+from atlas_cueing.run import Evaluation, RunResult
+from atlas_cueing.scenario import load_platform
 
 RESULT = RunResult(
     "vehicle_failed",

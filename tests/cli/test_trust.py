@@ -8,7 +8,7 @@ import pytest
 
 from atlas_cueing.recording import read_log
 from atlas_cueing.vehicles import own_aircraft
-from atlas_cueing.vehicles.library import root
+from atlas_cueing.vehicles.jsbsim.library import root
 
 from .conftest import SCRIPT, Command
 

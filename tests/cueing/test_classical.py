@@ -11,7 +11,18 @@ from scipy.spatial.transform import Rotation
 
 from atlas_cueing.cueing import CLASSICAL_STAGE, ClassicalParameters, StageParameters, build
 from atlas_cueing.cueing.classical import ClassicalRotation, TiltAngle, WashoutAngle
-from atlas_cueing.rotation import IDENTITY, ZERO, Quat, Vec3, conjugate, flip, flip_rotation, norm, rotate, to_euler
+from atlas_cueing.rotation import (
+    IDENTITY,
+    ZERO,
+    Quat,
+    Vec3,
+    conjugate,
+    flip,
+    flip_rotation,
+    norm,
+    rotate,
+    to_euler,
+)
 from atlas_cueing.signals import STANDARD_GRAVITY, StageLimits, VehicleState
 
 from .vehicles import LEVEL, manoeuvring

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from atlas_cueing.evaluation import Consistency, Flight, LimitUse, Metrics, gathered
-from atlas_cueing.evaluation.flight import Figures
+from atlas_cueing.evaluation.run_columns import Figures
 from atlas_cueing.signals import StageLimits, WheelLimits
 
 from .flights import G, still

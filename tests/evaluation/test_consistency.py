@@ -7,8 +7,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from atlas_cueing.evaluation import Flight, consistency, reintegrate
-from atlas_cueing.evaluation.quaternions import geodesic
 from atlas_cueing.rotation import exp, multiply
+from atlas_cueing.rotations import geodesic
 
 from .flights import still
 

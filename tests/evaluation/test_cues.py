@@ -6,7 +6,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from atlas_cueing.evaluation.cues import FORCE_THRESHOLD, GAIN_BAND, RATE_THRESHOLD, Cues, cue_shares
+from atlas_cueing.evaluation.cues import (
+    FORCE_THRESHOLD,
+    GAIN_BAND,
+    RATE_THRESHOLD,
+    Cues,
+    cue_shares,
+)
 
 T = 0.17
 LOW, HIGH = GAIN_BAND

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from math import nan
 
-from atlas_cueing.live.states import State
+from atlas_cueing.live.control.state_machine import State
 from atlas_cueing.signals import Motion
 
 from .rig import Rig

@@ -5,9 +5,9 @@ from collections.abc import Sequence
 
 from vehicles.packets import euler_rates, packet
 
-from atlas_cueing.live.flightgear_source import FlightgearSource
-from atlas_cueing.live.source import Intake
-from atlas_cueing.live.udp import Address, Datagram
+from atlas_cueing.live.input.flightgear_source import FlightgearSource
+from atlas_cueing.live.input.source import Intake
+from atlas_cueing.live.input.udp import Address, Datagram
 from atlas_cueing.rotation import to_euler
 from atlas_cueing.signals import VehicleState
 from atlas_cueing.vehicles.flightgear import METRES_PER_FOOT, normal_gravity

@@ -7,7 +7,7 @@ import numpy as np
 
 from atlas_cueing.recording import read_log
 from atlas_cueing.recording.log import Log
-from atlas_cueing.review.recover import Recovered, recover
+from atlas_cueing.review.recovery import Recovered, recover
 
 
 def times(log: Log) -> np.ndarray:

@@ -11,8 +11,9 @@ from time import monotonic, sleep
 from recording.flights import ATTACHMENTS, HEAD, METADATA, tumbling_at
 from waiting import until
 
-from atlas_cueing.recording import LiveWriter, McapRecorder
+from atlas_cueing.recording import McapRecorder
 from atlas_cueing.signals import Tick, Timing
+from atlas_cueing.telemetry import LiveWriter
 
 STARTED_NS = 1_700_000_000_123_456_789
 

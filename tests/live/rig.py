@@ -10,15 +10,25 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from atlas_cueing.live.conductor import Conductor, Wishes
-from atlas_cueing.live.guard import Command, Guard
+from atlas_cueing.live.control.controller import Conductor, Wishes
+from atlas_cueing.live.control.guard import Command, Guard
+from atlas_cueing.live.control.platform_controller import Ride
+from atlas_cueing.live.control.state_machine import State
+from atlas_cueing.live.input.source import Intake
 from atlas_cueing.live.loop import Loop
-from atlas_cueing.live.ride import Ride
-from atlas_cueing.live.source import Intake
-from atlas_cueing.live.states import State
 from atlas_cueing.pipeline import Pipeline
-from atlas_cueing.rotation import IDENTITY, Quat, Vec3, exp, integrate_body, multiply, normalise, scale
-from atlas_cueing.scenario import Scenario, build, load_scenario
+from atlas_cueing.rotation import (
+    IDENTITY,
+    Quat,
+    Vec3,
+    exp,
+    integrate_body,
+    multiply,
+    normalise,
+    scale,
+)
+from atlas_cueing.run import build
+from atlas_cueing.scenario import Scenario, load_scenario
 from atlas_cueing.signals import Motion, Tick, Timing, VehicleState
 
 Array = NDArray[np.float64]

@@ -5,8 +5,8 @@ from random import Random
 
 import pytest
 
-from atlas_cueing.live.ride import AT_HOME
-from atlas_cueing.live.states import State
+from atlas_cueing.live.control.platform_controller import AT_HOME
+from atlas_cueing.live.control.state_machine import State
 from atlas_cueing.rotation import IDENTITY, geodesic
 
 from .faults import FAULTS, LEADS_ON, MATRIX, jump

@@ -5,10 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from atlas_cueing.live.ring_recorder import RingRecorder
-from atlas_cueing.live.states import State
-from atlas_cueing.recording import LiveWriter, McapRecorder, live_ring
+from atlas_cueing.live.control.state_machine import State
+from atlas_cueing.live.output.ring_recorder import RingRecorder
+from atlas_cueing.recording import McapRecorder
 from atlas_cueing.review import review
+from atlas_cueing.telemetry import LiveWriter, live_ring
 
 from .riding import STARTED_NS
 from .rig import Rig

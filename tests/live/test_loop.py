@@ -5,8 +5,8 @@ from itertools import pairwise
 
 import pytest
 
+from atlas_cueing.live.control.state_machine import State
 from atlas_cueing.live.loop import LEAD
-from atlas_cueing.live.states import State
 
 from .rig import Rig
 

@@ -14,8 +14,8 @@ from typing import Any
 import pytest
 
 from atlas_cueing.errors import InputError
-from atlas_cueing.live.guard import Command
-from atlas_cueing.live.ring_recorder import RingRecorder
+from atlas_cueing.live.control.guard import Command
+from atlas_cueing.live.output.ring_recorder import RingRecorder
 from atlas_cueing.live.session import LiveOptions, LiveResult, LiveSession
 from atlas_cueing.recording import read_log
 from atlas_cueing.review import review

@@ -5,7 +5,7 @@ import tomllib
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from atlas_cueing.batch import run_scenario
+from atlas_cueing.run import run_scenario
 from atlas_cueing.scenario import load_scenario
 
 SCENARIOS = Path(__file__).parents[2] / "scenarios"

@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from atlas_cueing.batch import run_scenario
+from atlas_cueing.run import run_scenario
 from atlas_cueing.scenario import load_scenario
 
 # Six seconds of an F-16 that begins to roll, with a rider whose head is off the centre: everything moves.

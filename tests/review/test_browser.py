@@ -8,7 +8,7 @@ import pytest
 from viewer.browsing import Opened, launched, needs_browser
 
 from atlas_cueing.review import review
-from atlas_cueing.review.page import write_page
+from atlas_cueing.review.report import write_page
 
 pytestmark = needs_browser
 

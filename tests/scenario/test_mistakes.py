@@ -3,7 +3,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from atlas_cueing.scenario.mistakes import FileNamer, dotted, mistakes_of, nearest, shown
-from atlas_cueing.scenario.platform import Platform, presets
+from atlas_cueing.scenario.platform_file import Platform, presets
 from atlas_cueing.scenario.reading import read_toml
 
 from .conftest import Refused

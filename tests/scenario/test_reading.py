@@ -8,7 +8,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from atlas_cueing.errors import ScenarioError
-from atlas_cueing.scenario.reading import DEEPEST_NESTING, LARGEST_FILE, LONGEST_DOTTED_KEY, parse_toml, read_toml
+from atlas_cueing.scenario.reading import (
+    DEEPEST_NESTING,
+    LARGEST_FILE,
+    LONGEST_DOTTED_KEY,
+    parse_toml,
+    read_toml,
+)
 
 BRACKETS = "[" * 50
 DOTS = "." * 50

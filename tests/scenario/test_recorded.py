@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from atlas_cueing.batch import run_scenario
 from atlas_cueing.errors import InputError, LogError
 from atlas_cueing.recording import Log, read_log
+from atlas_cueing.run import run_scenario
 from atlas_cueing.scenario import RecordedFlight, load_scenario, recorded_vehicle
 from atlas_cueing.vehicles import Bounds
 

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from atlas_cueing.scenario import Scenario, load_platform, load_scenario, presets
-from atlas_cueing.scenario.cueing import METHODS
+from atlas_cueing.scenario.cueing_table import METHODS
 
 from .conftest import Refused
 from .texts import AIRCRAFT, INITIAL, SCRIPT, USER_SCRIPT

@@ -4,7 +4,7 @@ import pytest
 
 from atlas_cueing.errors import ScenarioError
 from atlas_cueing.scenario import Variant, load_scenario, load_variants, scenario_files
-from atlas_cueing.scenario.cueing import METHODS
+from atlas_cueing.scenario.cueing_table import METHODS
 from atlas_cueing.vehicles import own_scripts
 
 from .texts import AIRCRAFT, SCRIPT

@@ -2,7 +2,16 @@
 
 import pytest
 
-from atlas_cueing.signals import TOPICS, Cue, Motion, Tick, Topic, VehicleState, WheelSpeeds, tick_row
+from atlas_cueing.signals import (
+    TOPICS,
+    Cue,
+    Motion,
+    Tick,
+    Topic,
+    VehicleState,
+    WheelSpeeds,
+    tick_row,
+)
 
 CUE = [
     *("time_s", "q_ws_w", "q_ws_x", "q_ws_y", "q_ws_z", "wx_rad_s", "wy_rad_s", "wz_rad_s", "px_m", "py_m", "pz_m"),

@@ -10,8 +10,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from atlas_cueing.vehicles import ScriptFlight, own_scripts
-from atlas_cueing.vehicles.loading import load
-from atlas_cueing.vehicles.start import initialise
+from atlas_cueing.vehicles.jsbsim.loading import load
+from atlas_cueing.vehicles.jsbsim.start import initialise
 
 NAMES = {
     "rates": ("velocities/p-rad_sec", "velocities/q-rad_sec", "velocities/r-rad_sec"),

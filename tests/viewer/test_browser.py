@@ -9,10 +9,10 @@ from typing import Any
 from live.riding import live_tick
 from waiting import until
 
-from atlas_cueing.recording import LiveWriter, live_ring
-from atlas_cueing.recording.buttons import Buttons
 from atlas_cueing.review import RecordedRun
 from atlas_cueing.scenario import Platform
+from atlas_cueing.telemetry import LiveWriter, live_ring
+from atlas_cueing.telemetry.operator_buttons import Buttons
 from atlas_cueing.viewer import ViewerProcess, play, write_replay
 
 from .browsing import PATIENCE, Opened, needs_browser

@@ -11,7 +11,7 @@ import pytest
 from atlas_cueing.errors import InputError, OutputError
 from atlas_cueing.review import RecordedRun
 from atlas_cueing.viewer import write_replay
-from atlas_cueing.viewer.recorded import RecordedMotion, wheel_angles
+from atlas_cueing.viewer.recorded_motion import RecordedMotion, wheel_angles
 from atlas_cueing.viewer.replay import MOST_FRAMES, RATE_HZ, frames
 
 

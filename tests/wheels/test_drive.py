@@ -8,7 +8,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from atlas_cueing.errors import SlipConditionError
-from atlas_cueing.rotation import IDENTITY, ZERO, Vec3, apply, conjugate, dot, integrate_base, log, multiply, scale
+from atlas_cueing.rotation import (
+    IDENTITY,
+    ZERO,
+    Vec3,
+    apply,
+    conjugate,
+    dot,
+    integrate_base,
+    log,
+    multiply,
+    scale,
+)
 from atlas_cueing.signals import Motion
 from atlas_cueing.wheels import Geometry, Wheels
 

@@ -14,9 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from atlas_cueing.live.guard import Guard
-from atlas_cueing.live.ride import command_of
-from atlas_cueing.scenario import Scenario, build
+from atlas_cueing.live.control.guard import Guard
+from atlas_cueing.live.control.platform_controller import command_of
+from atlas_cueing.run import build
+from atlas_cueing.scenario import Scenario
 from atlas_cueing.signals import Tick, VehicleState
 from atlas_cueing.vehicles import JsbsimVehicle
 

@@ -11,10 +11,10 @@ from statistics import median
 
 import jsbsim
 
-from atlas_cueing.batch import run_scenario
+from atlas_cueing.run import run_scenario
 from atlas_cueing.scenario import Scenario
 from atlas_cueing.vehicles import own_scripts
-from atlas_cueing.vehicles.jsbsim_log import capture
+from atlas_cueing.vehicles.jsbsim.jsbsim_log import capture
 
 from .effort import Bench
 from .flights import SCRIPTS, script_scenario

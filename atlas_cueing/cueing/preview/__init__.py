@@ -4,7 +4,10 @@ For batch runs and recorded logs. It is the ceiling that methods which know only
 cost (`PreviewParameters`), the same limits, all of the future. Only this package knows clarabel.
 """
 
-from .plan import preview
+from .motion_plan import preview
 from .preview import Preview
 
-__all__ = ["Preview", "preview"]
+__all__ = [
+    "Preview",
+    "preview",
+]

@@ -1,0 +1,158 @@
+"""Runs on this machine: some worker processes, each with one run at a time."""
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from selectors import EVENT_READ, DefaultSelector
+from types import TracebackType
+from typing import Self
+
+from .job import Order
+from .job_result import Record
+
+Stop = Callable[[], bool]
+
+ATTEMPTS = 2  # times that a run may lose its worker before it is left
+_PATIENCE = 0.2  # s from one look at whether to stop to the next
+_GRACE = 10.0  # s for a worker to kill its run and end, once its stdin is closed
+_COMMAND = (sys.executable, "-P", "-m", f"{__package__}.worker")  # -P: nothing in the working directory is imported
+_SINGLE = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # a process that forks must not have threads
+
+
+class Worker:
+    """A worker process: one order at a time; closing it kills the run under way."""
+
+    def __init__(self) -> None:
+        self._process = subprocess.Popen(  # noqa: S603 - our own module
+            _COMMAND,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env={**os.environ, **_SINGLE},
+            start_new_session=True,  # Ctrl-C is for the driver, which stops its workers
+        )
+        assert self._process.stdin and self._process.stdout  # noqa: S101, PT018 - pipes, as asked for
+        self._orders, self._records = self._process.stdin, self._process.stdout
+        self.order: Order | None = None
+        self.losses = 0  # times that the present order lost a worker
+
+    def fileno(self) -> int:
+        """Readable when there is a record to receive."""
+        return self._records.fileno()
+
+    @property
+    def pid(self) -> int:
+        """The process."""
+        return self._process.pid
+
+    def submit(self, order: Order, losses: int = 0) -> None:
+        """Begin a run."""
+        self.order, self.losses = order, losses
+        with suppress(OSError):  # it is gone, and `receive` will say so
+            self._orders.write(order.to_line())
+            self._orders.flush()
+
+    def receive(self) -> Record | None:
+        """Wait for the record of the run; None when the worker died."""
+        line = self._records.readline()
+        return Record.from_json(json.loads(line)) if line.endswith(b"\n") else None
+
+    def close(self) -> None:
+        """End the process, and the run under way with it."""
+        for pipe in (self._orders, self._records):
+            with suppress(OSError):
+                pipe.close()
+        try:
+            self._process.wait(_GRACE)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+
+def fly_here(orders: Iterable[Order], jobs: int, stop: Stop = lambda: False) -> Iterator[Record]:
+    """Fly the orders in `jobs` worker processes; records as they come. Once `stop` is true, runs under way are killed.
+
+    A run that loses its worker is begun again with a new one, and given up as `worker_lost` when that is lost, too.
+    """
+    crew = _Crew(orders)
+    try:
+        for _ in range(jobs):
+            crew.hire()
+        while crew.busy and not stop():
+            yield from crew.records()
+    finally:
+        crew.dismiss()
+
+
+class _Crew:
+    """Workers, all of them busy, and the orders that are left."""
+
+    def __init__(self, orders: Iterable[Order]) -> None:
+        self._todo = iter(orders)
+        self._selector = DefaultSelector()
+
+    @property
+    def busy(self) -> bool:
+        """Somebody is at work."""
+        return bool(self._selector.get_map())
+
+    def hire(self) -> None:
+        """A new worker for the next order, if there is one."""
+        order = next(self._todo, None)
+        if order:
+            self._begin(order, 0)
+
+    def records(self) -> Iterator[Record]:
+        """What is ready within a moment; whoever is done goes on with the next order."""
+        for key, _ in self._selector.select(_PATIENCE):
+            worker: Worker = key.data
+            record = worker.receive()
+            if record:
+                self._go_on(worker)
+                yield record
+            else:
+                yield from self._replace(worker)
+
+    def dismiss(self) -> None:
+        """Kill every run under way."""
+        for key in list(self._selector.get_map().values()):
+            self._drop(key.data)
+        self._selector.close()
+
+    def _begin(self, order: Order, losses: int) -> None:
+        worker = Worker()
+        self._selector.register(worker, EVENT_READ, worker)
+        worker.submit(order, losses)
+
+    def _go_on(self, worker: Worker) -> None:
+        order = next(self._todo, None)
+        if order:
+            worker.submit(order)
+        else:
+            self._drop(worker)
+
+    def _replace(self, worker: Worker) -> Iterator[Record]:
+        """Begin the run of a dead worker again, or give it up."""
+        self._drop(worker)
+        if worker.order and worker.losses + 1 < ATTEMPTS:
+            self._begin(worker.order, worker.losses + 1)
+        elif worker.order:
+            self.hire()
+            yield lost(worker.order)
+
+    def _drop(self, worker: Worker) -> None:
+        self._selector.unregister(worker)
+        worker.close()
+
+
+def lost(order: Order) -> Record:
+    """The record of a run that lost its worker too often."""
+    return Record(order.id, "worker_lost", f"its worker process died {ATTEMPTS} times while flying it")

@@ -1,0 +1,103 @@
+"""The stage by plans that reach to a standstill, made anew some fifty times a second.
+
+The demand is limited and freed of its lasting part by an onset filter, whose motion is only imagined: it need not stay inside
+the travel, and tells what share of the demand is worth moving for (`horizon_share`). A plan for that share follows the same
+filter where the limits allow and does the next best where they do not (`horizon_problem`). It is flown until the next one; when
+there is none, to its end, where the stage stands.
+"""
+
+# mypyc: runs every tick
+
+from itertools import pairwise
+
+from ..parameters import HorizonParameters
+from .adaptive_gain import UsefulShare
+from .high_pass import OnsetFilter, demand_bound
+from .mpc_qp import AxisLimits, HorizonProblem
+from .mpc_unconstrained import Plan
+
+
+class HorizonAxis:
+    """One axis of the stage: demand (m/s^2) in, position, velocity and acceleration out."""
+
+    def __init__(
+        self,
+        dt: float,
+        onset: float,
+        recentre: float,
+        bandwidth: float,
+        limits: AxisLimits,
+        parameters: HorizonParameters,
+        delay: int,
+    ) -> None:
+        """Onset, recentre and bandwidth as in StageParameters, for one axis; dt in s.
+
+        The first plan is made `delay` ticks late, so that three axes need not plan in the same tick.
+        """
+        self._dt = dt
+        self._period = planning_ticks(dt, parameters.planning_rate)
+        self._ticks = block_ticks(self._period, parameters.length / dt, parameters.blocks)
+        bound = parameters.excess * demand_bound(onset, *limits[:3])
+        self._imagined = OnsetFilter(dt, onset, recentre, bandwidth, bound)
+        self._useful = UsefulShare(dt, parameters.memory, parameters.first_share, parameters.doubt)
+        self.problem = HorizonProblem([ticks * dt for ticks in self._ticks], onset, parameters.fade, limits)
+        self._to_next = delay % self._period
+        self._p = self._v = self._a = 0.0
+        self._course: Plan | None = None  # what is flown; none while the stage stands
+        self._block = self._left = 0  # where on it: the block, and its ticks still ahead
+        self._jerk = 0.0  # of this block
+
+    def step(self, demand: float) -> tuple[float, float, float]:
+        """Position, velocity and acceleration after one tick; a demand that is there at the start counts as lasting."""
+        share = self._useful.share
+        self._useful.learn(demand, self._imagined.step(demand)[2])
+        if not self._to_next:
+            self._plan(share * self._imagined.fleeting)
+            self._to_next = self._period
+        self._to_next -= 1
+        self._fly()
+        return self._p, self._v, self._a
+
+    def _plan(self, demand: float) -> None:
+        """Begin a new plan where the stage was a tick ago; without one the old plan goes on."""
+        plan = self.problem.solve(self._p, self._v, self._a, demand)
+        if plan is not None:
+            self._begin(plan, 0)
+
+    def _begin(self, plan: Plan, block: int) -> None:
+        """The next tick is the first one of a block of the plan."""
+        self._course, self._block = plan, block
+        self._left, self._jerk = self._ticks[block], plan.jerk(block)
+
+    def _fly(self) -> None:
+        """One tick along the plan."""
+        plan = self._course
+        if plan is None:
+            return
+        jerk, dt = self._jerk, self._dt
+        self._p += dt * (self._v + dt * (self._a / 2.0 + dt * jerk / 6.0))
+        self._v += dt * (self._a + dt * jerk / 2.0)
+        self._a += dt * jerk
+        self._left -= 1
+        if self._left:
+            return
+        if self._block + 1 < len(self._ticks):
+            self._begin(plan, self._block + 1)
+        else:
+            self._course, self._v, self._a = None, 0.0, 0.0  # but for rounding they are at rest
+
+
+def planning_ticks(dt: float, rate: float) -> int:
+    """Whole ticks of dt (s) from one plan to the next, at no less than `rate` (Hz) where the ticks allow it."""
+    return max(1, int(1.0 / (rate * dt) + 1e-9))
+
+
+def block_ticks(period: int, horizon: float, blocks: int) -> list[int]:
+    """Ticks of each block: whole planning periods, the first block one, growing to about `horizon` ticks together.
+
+    Since blocks begin and end where plans do, a plan always begins within one block of the plan before.
+    """
+    growth, ends = (1.0 + horizon / period) ** (1.0 / blocks), [0]
+    for k in range(1, blocks + 1):
+        ends.append(max(ends[-1] + 1, round(growth**k - 1.0)))
+    return [period * (end - begin) for begin, end in pairwise(ends)]

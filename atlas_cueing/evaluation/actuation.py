@@ -1,0 +1,93 @@
+"""What smoothing did to the cue, and what the actuators had to do."""
+
+from copy import copy
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..rotations import geodesic
+from .run_columns import Array, Flight, Tail, gathered
+from .statistics import Magnitudes, Peaks, distance, length
+
+_LARGEST = {
+    "wheel_speed_max_rad_s": "wheel_speed",
+    "wheel_acceleration_max_rad_s2": "wheel_acceleration",
+    "stage_travel_max_m": "motion_p_W",
+    "stage_speed_max_m_s": "motion_v_W",
+    "stage_acceleration_max_m_s2": "motion_a_W",
+}  # figure to column
+
+
+class Effort:
+    """Smoothing and actuators, block by block."""
+
+    def __init__(self) -> None:
+        """Of no ticks yet."""
+        self._angle, self._distance = Magnitudes(), Magnitudes()
+        self._limited: Array = np.zeros(2)  # ticks, by wheels and by stage
+        self._angular, self._linear = _Unlimited(), _Unlimited()
+        self._tail = Tail(1)
+        self._peaks = {name: Peaks() for name in _LARGEST}
+
+    def add(self, block: Flight) -> None:
+        """Take in the ticks that follow."""
+        self._angle.add(geodesic(block.cue_q_WS, block.motion_q_WS))
+        self._distance.add(distance(block.cue_p_W, block.motion_p_W))
+        self._limited += np.sum(block.limited, axis=0)
+        time, added_w = self._tail.joined(block.time, block.motion_w_W - block.cue_w_W)
+        alpha = length(np.diff(added_w, axis=0)) / np.diff(time)
+        self._angular.add(alpha, block.limited[:, 0] != 0.0)
+        self._linear.add(distance(block.motion_a_W, block.cue_a_W), block.limited[:, 1] != 0.0)
+        for name, column in _LARGEST.items():
+            self._peaks[name].add(getattr(block, column))
+
+    def figures(self) -> dict[str, float]:
+        """Those of `effort`."""
+        wheels, stage = (self._limited / max(self._angle.count, 1)).tolist()
+        return {
+            "cue_lag_rms_rad": self._angle.rms,
+            "cue_lag_max_rad": self._angle.largest,
+            "cue_lag_rms_m": self._distance.rms,
+            "cue_lag_max_m": self._distance.largest,
+            "wheels_limited_share": wheels,
+            "stage_limited_share": stage,
+            "added_angular_acceleration_rms_rad_s2": self._angular.rms(),
+            "added_stage_acceleration_rms_m_s2": self._linear.rms(),
+            **{name: peaks.largest for name, peaks in self._peaks.items()},
+        }
+
+
+def effort(flight: Flight) -> dict[str, float]:
+    """Figures of smoothing and of the actuators.
+
+    - cue_lag: motion against cue;
+    - wheels_limited_share, stage_limited_share: ticks at which smoothing could not give what was asked;
+    - added_...: what smoothing adds to angular acceleration and stage acceleration while no limit is active (this tick and
+      its neighbours), 0 where there is no such tick: chatter shows here. The added angular velocity is differenced,
+      backwards; the added stage acceleration is in the log;
+    - wheel_..., stage_...: largest magnitudes.
+    """
+    return gathered(Effort(), flight)
+
+
+class _Unlimited:
+    """Magnitudes at ticks at which no limit is active, nor at their neighbours; a tick waits for the next one."""
+
+    def __init__(self) -> None:
+        self._free = Magnitudes()
+        self._waiting: Array = np.empty(0)  # the value of the last tick
+        self._active: NDArray[np.bool_] = np.zeros(1, np.bool_)  # a limit, at the tick before the last and at the last one
+
+    def add(self, values: Array, active: NDArray[np.bool_]) -> None:
+        """Values (n,) at ticks at which a limit is `active` (n,) or not; the first tick of all may have no value."""
+        if len(values) < len(active):
+            self._active, active = active[:1], active[1:]
+        values, active = np.concatenate([self._waiting, values]), np.concatenate([self._active, active])
+        self._free.add(values[:-1][~(active[:-2] | active[1:-1] | active[2:])])
+        self._waiting, self._active = values[-1:], active[-2:]
+
+    def rms(self) -> float:
+        """Of all ticks so far, none of which comes after the last."""
+        free = copy(self._free)
+        free.add(self._waiting[: 0 if np.any(self._active) else 1])
+        return free.rms

@@ -1,0 +1,37 @@
+"""The part of a live run that is worth figures: a parked platform does not follow its vehicle, and is not meant to."""
+
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+
+from .run_columns import Flight
+
+RUNNING = "running"
+
+
+class Change(Protocol):
+    """A change of state, as `recording.Status` has it."""
+
+    @property
+    def time(self) -> float:
+        """When, s."""
+
+    @property
+    def state(self) -> str:
+        """What it changed to."""
+
+
+def ridden(flight: Flight, changes: Sequence[Change]) -> Flight:
+    """The longest stretch of a flight in state `running`, or none of it.
+
+    A change of state at t counts from the tick at t on, which is the first of the new state.
+    """
+    starts = np.array([change.time for change in changes])
+    ends = np.append(starts, np.inf)[1:]
+    stretches = [
+        slice(*np.searchsorted(flight.time, (start, end)))
+        for start, end, change in zip(starts, ends, changes, strict=True)
+        if change.state == RUNNING
+    ]
+    return flight.rows(max(stretches, key=lambda rows: rows.stop - rows.start, default=slice(0, 0)))

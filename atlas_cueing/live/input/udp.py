@@ -1,0 +1,93 @@
+"""Datagrams from a loopback port, without waiting."""
+
+import socket
+from contextlib import suppress
+from struct import Struct
+from time import time_ns
+from typing import NamedTuple, Protocol, TypeAlias
+
+from ...errors import InputError
+
+Address: TypeAlias = tuple[str, int]
+
+LARGEST = 2048  # bytes read of a datagram; a longer one is cut, and no packet of ours
+BUFFER = 64 * 1024  # bytes the kernel keeps for us: some 50 packets, so that a flood does not bring old ones (assumed)
+
+_SO_TIMESTAMPNS = 35  # Linux, asm-generic/socket.h; Python has no name for it
+_TIMESPEC = Struct("@ll")
+_ANCILLARY = socket.CMSG_SPACE(_TIMESPEC.size)
+
+
+class Datagram(NamedTuple):
+    """A datagram: its content, who sent it, and how long ago it arrived (s)."""
+
+    content: bytes
+    sender: Address
+    ago: float
+
+
+class Receiver(Protocol):
+    """Whatever datagrams come from."""
+
+    def receive(self) -> Datagram | None:
+        """The oldest datagram not yet received; None when there is none."""
+
+    def pin(self, sender: Address) -> None:
+        """From now on take datagrams of this sender only."""
+
+    def close(self) -> None:
+        """Let go of the port."""
+
+
+class UdpReceiver:
+    """A bound UDP socket (implements Receiver). The kernel notes when a datagram arrives, whenever it is read.
+
+    After `pin` the kernel itself throws away what others send, so that they can neither be heard nor fill the buffer.
+    """
+
+    def __init__(self, host: str, port: int) -> None:
+        """Bind. Raises InputError when the port cannot be had."""
+        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        try:
+            self._socket.setblocking(False)
+            self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, BUFFER)
+            self._socket.setsockopt(socket.SOL_SOCKET, _SO_TIMESTAMPNS, 1)
+            self._socket.bind((host, port))
+        except OSError as error:
+            self._socket.close()
+            raise InputError(
+                f"UDP {host}:{port}: cannot listen there: {error.strerror}; another program may have it"
+            ) from error
+
+    @property
+    def address(self) -> Address:
+        """Where it listens."""
+        host, port = self._socket.getsockname()
+        return host, port
+
+    def receive(self) -> Datagram | None:
+        """See Receiver. A socket error means as much as no datagram."""
+        try:
+            content, ancillary, _, sender = self._socket.recvmsg(LARGEST, _ANCILLARY)
+        except OSError:  # BlockingIOError: nothing there
+            return None
+        return Datagram(content, sender, _ago(ancillary))
+
+    def pin(self, sender: Address) -> None:
+        """See Receiver. What others sent before may still be received."""
+        with suppress(OSError):
+            self._socket.connect(sender)
+
+    def close(self) -> None:
+        """See Receiver."""
+        self._socket.close()
+
+
+def _ago(ancillary: list[tuple[int, int, bytes]]) -> float:
+    """Seconds since the kernel's time stamp; 0 without one, and when the system's clock was put back since."""
+    for level, kind, stamp in ancillary:
+        if level == socket.SOL_SOCKET and kind == _SO_TIMESTAMPNS and len(stamp) == _TIMESPEC.size:
+            seconds, nanoseconds = _TIMESPEC.unpack(stamp)
+            ago: int = time_ns() - 1_000_000_000 * seconds - nanoseconds
+            return max(0.0, 1e-9 * ago)
+    return 0.0

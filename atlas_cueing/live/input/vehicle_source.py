@@ -1,0 +1,78 @@
+"""A vehicle that owns its time, in step with the clock: JSBSim, test signals, or a recording."""
+
+# mypyc: runs every tick
+
+from dataclasses import replace
+
+from ...rotation import ZERO, continuous
+from ...signals import Vehicle, VehicleState
+from .discontinuity import departure
+from .interpolation import Interpolation
+from .source import Intake
+
+MAX_STEPS = 50  # of the model in one read: 50 ms at 1000 Hz, about a millisecond of JSBSim (assumed)
+
+
+class VehicleSource:
+    """Reads a vehicle at any time between its steps, without delay: the model is stepped just past the time asked for.
+
+    The vehicle's time begins at 0 with the first read and goes on with the clock, but for reads that do not advance: then the
+    vehicle stands still, with its attitude and force and no rates. So it does after its last state. A model too slow for the
+    clock, or a gap between two reads, costs at most MAX_STEPS steps a read; what is left over is not made up for, and the
+    vehicle's time falls behind.
+
+    A jump between two steps is not turned through: its end is given as soon as it has begun.
+    """
+
+    def __init__(self, vehicle: Vehicle) -> None:
+        self._vehicle = vehicle
+        self._now: float | None = None  # the loop's time
+        self._start = vehicle.state.time
+        self._elapsed = 0.0  # of the vehicle's own time
+        self._next = vehicle.state
+        self._between: Interpolation | None = None  # none across a jump, and before the first step
+        self._q_NB = vehicle.state.q_NB
+        self._over = False
+        self._jump = ""
+
+    def read(self, time: float, advance: bool) -> Intake:
+        """See `Source`. Raises what the vehicle raises, when it is stepped past its last good state."""
+        self._jump = ""
+        if advance and not self._over:
+            self._elapsed += 0.0 if self._now is None else time - self._now
+            self._follow(self._start + self._elapsed)
+        self._now = time
+        state = self._at(self._start + self._elapsed, time)
+        if self._over or not advance:
+            state = replace(state, w_NB_B=ZERO)
+        self._q_NB = state.q_NB
+        return Intake(state, 0.0, 0, 0, bool(self._jump), self._over, self._jump)
+
+    def pin(self) -> None:
+        """There is only one sender."""
+
+    def close(self) -> None:
+        """Nothing is held."""
+
+    def _follow(self, time: float) -> None:
+        """Step the vehicle until `time` (its own) lies between its last two states."""
+        for _ in range(MAX_STEPS):
+            if self._next.time > time:
+                return
+            if not self._vehicle.advance():
+                self._over = True
+                self._elapsed = self._next.time - self._start
+                return
+            self._step(self._vehicle.state)
+        self._elapsed = min(self._elapsed, self._next.time - self._start)
+
+    def _step(self, state: VehicleState) -> None:
+        jump = departure(self._next, state)
+        self._between = None if jump else Interpolation(self._next, state)
+        self._next = state
+        self._jump = jump or self._jump
+
+    def _at(self, time: float, called: float) -> VehicleState:
+        between = self._between
+        state = between.at(time, called) if between else replace(self._next, time=called)
+        return replace(state, q_NB=continuous(state.q_NB, self._q_NB))

@@ -1,0 +1,161 @@
+"""The set-point packet for a drive controller, version 1, and the socket that sends one every tick.
+
+A UDP datagram of 176 bytes, little-endian, without padding: all fields lie where a C struct of the same order has them.
+
+| offset | type         | field                                                                                            |
+|-------:|--------------|--------------------------------------------------------------------------------------------------|
+|      0 | char[4]      | magic: `ATSP`                                                                                    |
+|      4 | uint8        | version: 1                                                                                       |
+|      5 | uint8        | kind of check: 0 = CRC-32, 1 = keyed BLAKE2s                                                     |
+|      6 | uint8        | state: 0 parked, 1 engaging, 2 running, 3 holding, 4 parking, 5 fault_stopping, 6 stopped        |
+|      7 | uint8        | 0; not looked at                                                                                 |
+|      8 | uint64       | session: a random number, another one each time a loop starts                                    |
+|     16 | uint64       | sequence: strictly increasing within a session                                                   |
+|     24 | int64        | valid from: when the motion below is due, ns on CLOCK_MONOTONIC of the sender                    |
+|     32 | double       | time of the run, s                                                                               |
+|     40 | double[3]    | speed of wheels 1 to 3, rad/s                                                                    |
+|     64 | double[3]    | acceleration of wheels 1 to 3, rad/s^2                                                           |
+|     88 | double[3]    | stage position x, y, z from the centre, m, frame W (x forward, y left, z up)                     |
+|    112 | double[3]    | stage velocity, m/s                                                                              |
+|    136 | double[3]    | stage acceleration, m/s^2                                                                        |
+|    160 | uint8[16]    | check of bytes 0 to 159                                                                          |
+
+Check 0: the CRC-32 of zlib, PNG and Ethernet as a uint32, then 12 zeros; it finds damage, not forgery, and is for loopback.
+Check 1: BLAKE2s (RFC 7693) with a shared key of 16 to 32 bytes, a digest of 16 bytes, no salt and no personalisation. Who has a
+key takes nothing but check 1. The key keeps out forged packets, and session and sequence replayed ones; but a receiver that has
+just been reset and has not heard its loop yet cannot tell an old session from a new one, except by its valid-from.
+
+A receiver refuses a packet of another size, magic, version or state, with a wrong check or a number that is not finite, with a
+sequence or a valid-from that does not increase, or of another sender or session than the first good one (`receiver` does all
+that). Nothing in a packet is encrypted.
+"""
+
+import hmac
+import ipaddress
+import secrets
+import socket
+import zlib
+from dataclasses import dataclass
+from hashlib import blake2s
+from math import isfinite
+from struct import Struct
+
+from ...errors import InputError, SetPointError
+from ...signals import LIVE_STATES
+from ..control.guard import Command
+
+VERSION = 1
+CRC32, BLAKE2S = 0, 1
+SHORTEST_KEY = 16  # bytes
+LONGEST_KEY = blake2s.MAX_KEY_SIZE
+_MAGIC = b"ATSP"
+_content = Struct("<4sBBBxQQq16d")
+_CHECK = 16  # bytes
+SIZE = _content.size + _CHECK
+
+
+@dataclass(frozen=True, slots=True)
+class SetPoint:
+    """A packet's content: `valid_from` in s on the sender's CLOCK_MONOTONIC, `state` by its name, the command with its time."""
+
+    session: int
+    sequence: int
+    valid_from: float
+    state: str
+    command: Command
+
+
+def encode(
+    session: int, sequence: int, time: float, valid_from: float, state: int, command: Command, key: bytes = b""
+) -> bytes:
+    """The packet; `time` of the run and `valid_from` in s, `state` the place in LIVE_STATES, no key for CRC-32."""
+    c = command
+    content = _content.pack(
+        *(_MAGIC, VERSION, BLAKE2S if key else CRC32, state, session, sequence, round(valid_from * 1e9), time),
+        *(*c.wheel_speed, *c.wheel_acceleration, *c.p_WS_W, *c.v_WS_W, *c.a_WS_W),
+    )
+    return content + _check(content, key)
+
+
+def decode(packet: bytes, key: bytes = b"") -> SetPoint:
+    """The content of a packet. Raises SetPointError for a wrong size, magic, version, check, state or number."""
+    if len(packet) != SIZE:
+        raise SetPointError(f"packet of {len(packet)} bytes, allowed: {SIZE}")
+    content = packet[: _content.size]
+    magic, version, kind, state, session, sequence, valid_from, *numbers = _content.unpack(content)
+    if magic != _MAGIC:
+        raise SetPointError(f"packet starts with {magic!r}, allowed: {_MAGIC!r}")
+    if version != VERSION:
+        raise SetPointError(f"packet of version {version}, allowed: {VERSION}")
+    wanted = BLAKE2S if key else CRC32
+    if kind != wanted:
+        raise SetPointError(f"packet has check {kind}, allowed: {wanted}, as the receiver has {'a' if key else 'no'} key")
+    if not hmac.compare_digest(packet[_content.size :], _check(content, key)):
+        raise SetPointError(f"packet {sequence} has a wrong check: it is damaged, or its sender has another key")
+    if state >= len(LIVE_STATES):
+        raise SetPointError(f"packet {sequence} has state {state}, allowed: 0 <= state <= {len(LIVE_STATES) - 1}")
+    for place, number in enumerate(numbers):
+        if not isfinite(number):
+            raise SetPointError(f"packet {sequence} has {number} as number {place}, allowed: finite numbers")
+    time, w1, w2, w3, b1, b2, b3, px, py, pz, vx, vy, vz, ax, ay, az = numbers
+    command = Command(time, (w1, w2, w3), (b1, b2, b3), (px, py, pz), (vx, vy, vz), (ax, ay, az))
+    return SetPoint(session, sequence, valid_from * 1e-9, LIVE_STATES[state], command)
+
+
+class SetPointSender:
+    """Sends set points to one receiver and never waits for it.
+
+    unsent: packets that the kernel did not take: its buffer was full, or nobody listens there.
+    """
+
+    def __init__(self, host: str, port: int, key: bytes = b"") -> None:
+        """Connect to a numeric IPv4 address; one off this machine needs a shared key.
+
+        Raises InputError for an address without its key, one of a group or of all, and a bad port or key.
+        """
+        check_key(key)
+        _check_address(host, key)
+        self.unsent = 0
+        self._key, self._session = key, secrets.randbits(64)
+        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self._socket.setblocking(False)
+        try:
+            self._socket.connect((host, port))
+        except (OSError, OverflowError) as error:
+            self._socket.close()
+            raise InputError(f"set points cannot be sent to {host}:{port}: {error}") from error
+
+    def send(self, sequence: int, time: float, valid_from: float, state: int, command: Command) -> None:
+        """Send one; see `encode`. What cannot be sent at once is not sent at all."""
+        packet = encode(self._session, sequence, time, valid_from, state, command, self._key)
+        try:
+            self._socket.send(packet)
+        except OSError:  # BlockingIOError: the buffer is full; ConnectionRefusedError: nobody took the one before
+            self.unsent += 1
+
+    def close(self) -> None:
+        """Let go of the socket."""
+        self._socket.close()
+
+
+def check_key(key: bytes) -> None:
+    """Raises InputError for a key that is too short or too long; none at all is good."""
+    if key and not SHORTEST_KEY <= len(key) <= LONGEST_KEY:
+        raise InputError(f"shared key of {len(key)} bytes, allowed: {SHORTEST_KEY} <= bytes <= {LONGEST_KEY}")
+
+
+def _check_address(host: str, key: bytes) -> None:
+    try:
+        address = ipaddress.IPv4Address(host)
+    except ValueError as error:
+        raise InputError(f"set-point receiver {host!r}: allowed: a numeric IPv4 address such as 127.0.0.1") from error
+    if address.is_multicast or address.is_unspecified:
+        raise InputError(f"set-point receiver {host}: allowed: the address of one machine")
+    if not (address.is_loopback or key):
+        raise InputError(f"set-point receiver {host} is not on this machine: allowed with a shared key only, or 127.0.0.1")
+
+
+def _check(content: bytes, key: bytes) -> bytes:
+    if key:
+        return blake2s(content, digest_size=_CHECK, key=key).digest()
+    return zlib.crc32(content).to_bytes(_CHECK, "little")

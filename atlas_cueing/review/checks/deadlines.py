@@ -1,0 +1,48 @@
+"""Was a live run on time, and does its account of that hang together?"""
+
+import numpy as np
+
+from ...signals import TIMING
+from ..finding import Array, Finding, exceeding
+from ..recorded_run import RecordedRun
+
+ROUNDING = 1e-6  # s; time of the run and of the clock are sums of steps in another order
+
+
+def is_live(run: RecordedRun) -> bool:
+    """Whether the log tells how punctual its ticks were."""
+    return TIMING.name in run.log.tables and len(run.log.tables[TIMING.name].values) > 0
+
+
+def timing(run: RecordedRun, field: str) -> Array:
+    """A column of /timing, as long as the flight."""
+    return run.log.column(TIMING.name, field)[: len(run.flight.time)]
+
+
+def check_punctuality(run: RecordedRun) -> list[Finding]:
+    """Real time is behind the run's own by just the deadlines that were missed, and no tick began early."""
+    if not is_live(run) or len(run.flight.time) < 2 or len(timing(run, "elapsed_s")) != len(run.flight.time):
+        return []
+    time, late = run.flight.time, timing(run, "lateness_s")
+    behind = np.diff(timing(run, "elapsed_s")) - np.diff(time)
+    # a tick that is late misses deadlines after its own: they lie between it and the next one
+    missed = np.diff(timing(run, "missed_deadlines"), prepend=0.0)[:-1] * run.step
+    check, place = "real time does not fit the missed deadlines", ["/timing elapsed_s"]
+    early = np.where(late < 0.0, late, 0.0)
+    return [
+        *exceeding(check, place, time[1:], behind - missed, ROUNDING, "s", quantity="difference"),
+        *exceeding("a tick began early", ["/timing lateness_s"], time, early, 0.0, "s", quantity="|lateness|"),
+    ]
+
+
+def punctuality_notes(run: RecordedRun) -> list[str]:
+    """How late the ticks began, what they took, and how many deadlines were missed."""
+    if not is_live(run):
+        return []
+    late, cost = 1e6 * timing(run, "lateness_s"), 1e6 * timing(run, "cost_s")
+    missed = int(timing(run, "missed_deadlines")[-1])
+    told = [f"{missed} deadlines missed"] if missed else []
+    for name, values in (("lateness", late), ("tick cost", cost)):
+        p50, p99, p999 = np.percentile(values, [50.0, 99.0, 99.9], method="inverted_cdf")
+        told.append(f"{name} p50 {p50:.0f}, p99 {p99:.0f}, p99.9 {p999:.0f}, max {values.max():.0f} us")
+    return told

@@ -1,0 +1,113 @@
+"""The recorded vehicle of a log through another method, other parameters or another platform."""
+
+from collections.abc import Mapping, Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError, LogError, OutputError, ScenarioError
+from ..recording import Log, McapRecorder
+from ..run import prepare
+from ..scenario import Scenario, recorded_vehicle
+from ..scenario.cueing_table import ALL_METHODS
+from ..scenario.load import resolve
+from ..scenario.overrides import parse_overrides
+from ..scenario.reading import read_toml
+from .attachments import SCENARIO, as_inside, unpacked
+from .recorded_run import open_log
+
+_FLOWN = ("vehicle", "duration_s")  # keys of what has been flown already
+
+
+def recue(path: str | Path, settings: Sequence[str], output: str | Path) -> Scenario:
+    """Write `output`, the flight of the log `path` cued anew with `KEY=VALUE` settings on top of the log's own scenario.
+
+    Without settings, cue, motion and wheels are the log's own to the last bit. With another method, what the old one had by
+    default is left to the new one's defaults, as in a run; what was set for the old one stays where the new one knows the key.
+    States, result and reason are the flight's, so they are kept. Gives the scenario. Raises InputError (nothing was written)
+    for settings that do not fit, LogError for a log that is damaged or holds no scenario.
+    """
+    _refuse_flown(settings)
+    output = Path(output)
+    log = open_log(path)
+    if SCENARIO not in log.attachments:
+        raise LogError(f"{path}: the log does not hold {SCENARIO}, so there is nothing to cue it by")
+    recorded = recorded_vehicle(log)
+    with unpacked(log) as folder:
+        try:
+            scenario = _cued_by(folder / SCENARIO, [_from_here(text) for text in settings])
+        except ScenarioError as error:
+            raise InputError(*(as_inside(ScenarioError([mistake]), folder) for mistake in error.mistakes)) from error
+        attachments = scenario.attachments()
+    vehicle, pipeline = prepare(scenario, recorded)
+    recorder = _recorder(output, scenario, log, attachments)
+    try:
+        recorder.append(pipeline.step(vehicle.state))
+        while vehicle.advance():
+            recorder.append(pipeline.step(vehicle.state))
+        for status in log.statuses:
+            recorder.status(status.time, status.state, status.reason)
+        recorder.close(log.metadata.get("result", ""), log.metadata.get("reason", ""))
+    except OutputError:
+        recorder.abandon()
+        recorder.part.unlink(missing_ok=True)  # half of it is of no use: the flight is still there
+        raise
+    return scenario
+
+
+def _cued_by(file: Path, settings: Sequence[str]) -> Scenario:
+    """The log's scenario with the settings on top. Raises ScenarioError with every mistake."""
+    data, overrides = read_toml(file), parse_overrides(settings)
+    old = data.get("cueing")
+    if isinstance(old, dict) and overrides.get(("cueing", "method"), old.get("method")) != old.get("method"):
+        # a log's scenario names every value, so that the old method's defaults would pass for somebody's wish
+        method = ALL_METHODS.get(str(old.get("method")))
+        data["cueing"] = _changed(old, method().model_dump(mode="json") if method else {}) | {"method": old.get("method")}
+    return resolve(data, overrides, file)
+
+
+def _changed(table: Mapping[str, Any], defaults: Mapping[str, Any]) -> dict[str, Any]:
+    """What differs from the defaults, in tables within as well."""
+    changed = {}
+    for key, value in table.items():
+        default = defaults.get(key)
+        if isinstance(value, dict) and isinstance(default, dict):
+            changed[key] = _changed(value, default)
+        elif value != default:
+            changed[key] = value
+    return changed
+
+
+def _recorder(output: Path, scenario: Scenario, log: Log, attachments: dict[str, bytes]) -> McapRecorder:
+    return McapRecorder(
+        output,
+        head_S=scenario.platform.head_S,
+        metadata={
+            **log.metadata,
+            "scenario": scenario.name,
+            "method": scenario.file.cueing.method,
+            "platform": scenario.platform.name,
+            "atlas_cueing_version": version("atlas_cueing"),
+            "ruckig_version": version("ruckig"),
+            "recued_from": log.path.name,
+        },
+        attachments=attachments,
+        chunk_ticks=scenario.file.recording.chunk_ticks,
+        skip_topics=scenario.file.recording.skip,
+    )
+
+
+def _refuse_flown(settings: Sequence[str]) -> None:
+    for text in settings:
+        if text.partition("=")[0].strip().partition(".")[0] in _FLOWN:
+            raise InputError(
+                f"--set: {text}: the flight is the recorded one; allowed: keys of cueing, platform, recording, name"
+            )
+
+
+def _from_here(text: str) -> str:
+    """A platform file is looked for where the command was called, not where the log's files are unpacked."""
+    key, _, value = text.partition("=")
+    if key.strip() != "platform.file":
+        return text
+    return f"platform.file={Path(value.strip().strip(chr(34))).resolve()}"

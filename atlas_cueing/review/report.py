@@ -1,0 +1,163 @@
+"""One self-contained HTML file of a review or a comparison: it opens from disk, without any network."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..atomic_file import write_page as write_file
+from ..errors import MissingExtraError, OutputError
+from ..printable import html_text
+from .checks.deadlines import is_live
+from .comparison import Comparison
+from .figures import Figure, telling
+from .verdict import Review
+
+if TYPE_CHECKING:
+    from plotly.graph_objects import Figure as Plot
+
+_ZOOM = "drag to zoom, double-click to see all"
+_STYLE = """
+body { font-family: system-ui, sans-serif; margin: 1.2em auto; max-width: 1500px; padding: 0 1em; color: #1b2733; }
+h1 { font-size: 1.5em; margin: 0.2em 0; } h2 { font-size: 1.15em; margin: 1.4em 0 0.3em; }
+.verdict { display: inline-block; padding: 0.15em 0.7em; border-radius: 0.4em; color: white; background: #c00000; }
+.verdict.clean { background: #2e7d32; }
+.columns { display: flex; flex-wrap: wrap; gap: 0 3em; align-items: flex-start; }
+table { border-collapse: collapse; margin: 0.5em 0; } td, th { padding: 0.1em 0.9em 0.1em 0; text-align: left; }
+td.number, th { text-align: right; } td.number { font-variant-numeric: tabular-nums; } td:first-child { color: #5a6a7a; }
+li.finding { color: #c00000; } details { margin: 0.5em 0; }
+"""
+
+
+def write_page(found: Review, file: str | Path) -> None:
+    """Write the review with plots of everything into `file`.
+
+    Raises MissingExtraError without plotly and OutputError when the file cannot be written; an old one is kept then.
+    """
+    plots = _plots()
+    from .plots.limit_bars import limit_bars
+    from .plots.space import in_space
+    from .plots.spectra import spectra
+
+    run = found.run
+    sections = [
+        ("", _header(found)),
+        ("", _findings(found)),
+        (f"Over time, in the axes of the vehicle's body and of the cabin: {_ZOOM}", plots.over_time(found)),
+        ("In space, in the axes of the platform's base: drag to turn; a dot where each path begins", in_space(run)),
+        *_punctuality(found),
+        ("Use of the limits", limit_bars(run)),
+        ("Power spectra, summed over the axes", spectra(run)),
+        ("Every figure", _metrics(["value"], list(found.metrics), [found.metrics])),
+    ]
+    _write(file, run.log.metadata.get("scenario", "") or run.log.path.name, sections)
+
+
+def write_comparison(comparison: Comparison, file: str | Path) -> None:
+    """Write the runs side by side into `file`. Raises as `write_page`."""
+    plots = _plots()
+    runs = [each.run for each in comparison.reviews]
+    heads = "".join(
+        f"<tr><td>{html_text(name)}</td><td>{_verdict(each)}</td><td>{html_text(str(each.run.log.path))}</td></tr>"
+        for name, each in zip(comparison.names, comparison.reviews, strict=True)
+    )
+    sections = [
+        ("", f"<h1>{' against '.join(html_text(name) for name in comparison.names)}</h1><table>{heads}</table>"),
+        ("Rider less pilot, net turns, and what was limited", _headlines(comparison)),
+        (f"Over time: {_ZOOM}", plots.overlays(comparison.names, runs)),
+        ("Every figure", _metrics(comparison.names, comparison.metric_names(), [each.metrics for each in comparison.reviews])),
+    ]
+    _write(file, " against ".join(comparison.names), sections)
+
+
+def _plots() -> Any:
+    """The module of plots; plotly comes with an extra and takes half a second to load."""
+    try:
+        from .plots import time_series as plots
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] != "plotly":
+            raise
+        raise MissingExtraError("an HTML page", "plotly", "report") from error
+    return plots
+
+
+def _punctuality(found: Review) -> "list[tuple[str, Plot]]":
+    """Of a live run only."""
+    if not is_live(found.run):
+        return []
+    from .plots.lateness import punctuality
+
+    return [("Punctuality of the real-time loop", punctuality(found.run))]
+
+
+def _headlines(comparison: Comparison) -> str:
+    """The figures that tell most, one column a log."""
+    names = telling(name for each in comparison.reviews for name in each.metrics)
+    return _columns(comparison.names, names, [each.metrics for each in comparison.reviews])
+
+
+def _header(found: Review) -> str:
+    """Verdict first, then what was flown and the figures that tell most."""
+    metadata = found.run.log.metadata
+    told = [
+        ("log", str(found.run.log.path)),
+        ("flight", f"{found.duration:.2f} s, {len(found.run.flight.time)} ticks"),
+        *((key.replace("_", " "), value) for key, value in metadata.items() if value),
+    ]
+    title = metadata.get("scenario", "") or found.run.log.path.name
+    errors = [name for name in telling(found.metrics) if "_rms_" in name]
+    others = [name for name in telling(found.metrics) if name not in errors]
+    return (
+        f"<h1>{html_text(title)} {_verdict(found)}</h1><div class='columns'>{_table(told)}"
+        f"{_columns(['rider less pilot'], errors, [found.metrics])}{_columns(['whole run'], others, [found.metrics])}</div>"
+    )
+
+
+def _verdict(found: Review) -> str:
+    return f"<span class='verdict{' clean' if found.clean else ''}'>{html_text(found.verdict)}</span>"
+
+
+def _findings(found: Review) -> str:
+    lines = [f"<li class='finding'>{html_text(str(finding))}</li>" for finding in found.findings]
+    lines += [f"<li>{html_text(note)}</li>" for note in found.notes]
+    return f"<h2>Findings and notes</h2><ul>{''.join(lines)}</ul>" if lines else ""
+
+
+def _table(rows: Sequence[tuple[str, str]]) -> str:
+    return "<table>" + "".join(f"<tr><td>{html_text(a)}</td><td>{html_text(b)}</td></tr>" for a, b in rows) + "</table>"
+
+
+def _metrics(heads: Sequence[str], names: Sequence[str], columns: Sequence[dict[str, float]]) -> str:
+    """All metrics, one column a log, folded away."""
+    return f"<details><summary>{len(names)} figures</summary>{_columns(heads, names, columns)}</details>"
+
+
+def _columns(heads: Sequence[str], names: Sequence[str], columns: Sequence[dict[str, float]]) -> str:
+    """Metrics by name, one column a log."""
+    rows = [f"<tr><th></th>{''.join(f'<th>{html_text(head)}</th>' for head in heads)}</tr>"]
+    for name in names:
+        figure = Figure.of(name)
+        cells = "".join(f"<td class='number'>{figure.text(column.get(name))}</td>" for column in columns)
+        rows.append(f"<tr><td>{html_text(figure.title.replace('/s2', '/s²'))}</td>{cells}</tr>")
+    return f"<table>{''.join(rows)}</table>"
+
+
+def _write(file: str | Path, title: str, sections: "Sequence[tuple[str, str | Plot]]") -> None:
+    from plotly.offline import get_plotlyjs
+
+    pieces = [
+        f"<!doctype html><html lang='en'><head><meta charset='utf-8'><title>{html_text(title)}</title>",
+        f"<style>{_STYLE}</style><script>{get_plotlyjs()}</script></head><body>",
+    ]
+    for heading, content in sections:
+        pieces.append(f"<h2>{html_text(heading)}</h2>" if heading else "")
+        pieces.append(content if isinstance(content, str) else _html(content))
+    try:
+        write_file(file, "".join([*pieces, "</body></html>\n"]))
+    except OSError as error:
+        raise OutputError(f"page {file}: {error.strerror}") from error
+
+
+def _html(plot: "Plot") -> str:
+    """One plot as a part of the page, whose script has been read already."""
+    html: str = plot.to_html(full_html=False, include_plotlyjs=False, config={"displaylogo": False, "responsive": True})
+    return html

@@ -1,0 +1,83 @@
+"""From a log to a verdict."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..run import evaluate_flight
+from .checks.actuators import check_actuators
+from .checks.deadlines import check_punctuality, punctuality_notes
+from .checks.felt_force import check_sensation
+from .checks.finite import check_numbers
+from .checks.limited_flags import check_honesty
+from .checks.log_times import check_stamps
+from .checks.orientation import check_orientation
+from .checks.status import check_course, notes
+from .checks.timestamps import check_clock
+from .finding import Finding
+from .recorded_run import RecordedRun, open_run
+
+
+@dataclass(frozen=True, slots=True)
+class Review:
+    """What came of a review; `findings` in order of time, those of the whole log first."""
+
+    run: RecordedRun
+    findings: tuple[Finding, ...]
+    notes: tuple[str, ...]
+    metrics: dict[str, float]
+
+    @property
+    def clean(self) -> bool:
+        """Nothing was found."""
+        return not self.findings
+
+    @property
+    def verdict(self) -> str:
+        """In a word or two."""
+        return "clean" if self.clean else f"{len(self.findings)} finding{'s' if len(self.findings) > 1 else ''}"
+
+    @property
+    def duration(self) -> float:
+        """From the first tick to the last, s."""
+        time = self.run.flight.time
+        return float(time[-1] - time[0]) if len(time) else 0.0
+
+    def to_json(self) -> dict[str, object]:
+        """Everything by name, the unit in the name; a metric may be infinite or NaN."""
+        metadata = self.run.log.metadata
+        return {
+            "verdict": self.verdict,
+            "result": metadata.get("result", ""),
+            "reason": metadata.get("reason", ""),
+            "log": str(self.run.log.path),
+            "ticks": len(self.run.flight.time),
+            "duration_s": self.duration,
+            "step_s": self.run.step,
+            "violations": [str(finding) for finding in self.findings if finding.check == "limit"],
+            "findings": [finding.to_json() for finding in self.findings],
+            "notes": list(self.notes),
+            "metadata": dict(metadata),
+            "metrics": self.metrics,
+        }
+
+
+def review(path: str | Path) -> Review:
+    """Read a log and judge it by its own numbers, with arithmetic that shares nothing with what wrote it.
+
+    Raises InputError when there is no such file, and LogError when it is damaged, not a log of ours, or has no platform.
+    """
+    return judge(open_run(path))
+
+
+def judge(run: RecordedRun) -> Review:
+    """The review of a run that is open already."""
+    found = [*check_course(run), *check_clock(run), *check_numbers(run), *check_stamps(run), *check_punctuality(run)]
+    with np.errstate(all="ignore"):  # numbers out of range have been found by now
+        if not any(finding.check == "ticks lost" for finding in found):
+            found += [*check_orientation(run), *check_actuators(run), *check_sensation(run), *check_honesty(run)]
+        figures = evaluate_flight(run.log, run.flight, run.platform).metrics
+    found.sort(key=lambda finding: -1.0 if finding.time is None else finding.time)
+    told = (*run.log.notes, *notes(run), *punctuality_notes(run))
+    return Review(run, tuple(found), told, figures)

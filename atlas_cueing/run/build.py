@@ -1,0 +1,87 @@
+"""A scenario's pipeline."""
+
+from collections.abc import Sequence
+
+from ..cueing import Cues
+from ..cueing import build as build_cueing
+from ..errors import InputError, Mistake, ScenarioError, SlipConditionError
+from ..pipeline import Pipeline
+from ..scenario.cueing_table import PreviewTable
+from ..scenario.mistakes import SET, dotted, shown
+from ..scenario.platform_file import without_room
+from ..scenario.scenario import Scenario
+from ..signals import Vehicle, VehicleState
+from ..smoothing import Smoothing
+from ..vehicles import FlownAhead
+from ..wheels import Wheels
+
+
+def build(scenario: Scenario, dt: float, states: Sequence[VehicleState] | None = None) -> Pipeline:
+    """A new pipeline for one flight of `scenario` with a state every `dt` s (the vehicle's step).
+
+    states: all states of the flight, for a method that needs them (`Scenario.needs_whole_flight`).
+
+    Raises SlipConditionError for a singular platform and InputError for limits or parameters that do not fit the step, and for
+    a method that needs the whole flight and does not have it, or finds no plan for it.
+    """
+    platform = scenario.platform
+    _check_room(scenario, dt)
+    wheels = _wheels(scenario)
+    try:
+        smoothing = Smoothing(
+            dt=dt,
+            wheels_from_sphere=wheels.wheels_from_sphere,
+            sphere_from_wheels=wheels.sphere_from_wheels,
+            wheel_limits=platform.wheel_speed_limits(),
+            stage_limits=platform.stage_motion_limits(),
+        )
+        cueing = _cueing(scenario, dt, states)
+    except ValueError as error:
+        raise InputError(
+            f"{scenario.source}: scenario {scenario.name!r} on platform {platform.name!r} at {1.0 / dt:g} Hz: {error}"
+        ) from error
+    return Pipeline(cueing, smoothing, wheels)
+
+
+def prepare(scenario: Scenario, vehicle: Vehicle) -> tuple[Vehicle, Pipeline]:
+    """The vehicle to fly and its new pipeline, for a flight whose future may be known.
+
+    For a method that needs the whole flight the vehicle is flown to its end here, and the one returned plays it back; any other
+    is returned as it is. Raises what `build` raises.
+    """
+    if not scenario.needs_whole_flight:
+        return vehicle, build(scenario, vehicle.dt)
+    ahead = FlownAhead(vehicle)
+    return ahead, build(scenario, ahead.dt, ahead.states)
+
+
+def _wheels(scenario: Scenario) -> Wheels:
+    try:
+        return Wheels(scenario.platform.geometry())
+    except SlipConditionError as error:
+        error.args = (f"{scenario.name_platform(('wheel',))}: wheel: {error}",)
+        raise
+
+
+def _check_room(scenario: Scenario, dt: float) -> None:
+    mistakes = []
+    for key, value, allowed in without_room(scenario.platform, dt):
+        file = scenario.name_platform(key)
+        mistakes.append(Mistake(file, dotted(("platform", *key) if file == SET else key), shown(value), allowed))
+    if mistakes:
+        raise ScenarioError(mistakes)
+
+
+def _cueing(scenario: Scenario, dt: float, states: Sequence[VehicleState] | None) -> Cues:
+    method, platform = scenario.file.cueing, scenario.platform
+    stage_limits = platform.stage_motion_limits()
+    if not isinstance(method, PreviewTable):
+        return build_cueing(method.parameters(), method.stage_parameters(), stage_limits, platform.head_S, dt)
+    if states is None:
+        raise InputError(
+            f"scenario {scenario.name!r}: method 'preview' needs the whole flight beforehand, so it does not fly live; "
+            "use run, batch or recue, or another method"
+        )
+    from ..cueing.preview import preview  # with scipy.sparse, which takes a quarter of a second to load
+
+    return preview(states, method.parameters(), stage_limits, platform.head_S, dt)

@@ -1,0 +1,79 @@
+"""One `[[vehicle.signal]]` table."""
+
+from collections.abc import Collection
+from math import radians
+from typing import Annotated, Any, TypeAlias
+
+from pydantic import BeforeValidator, model_validator
+
+from ..errors import InputError
+from ..vehicles import Signal
+from ..vehicles.signal_vehicle import DEFAULT_RAMP, FORCE_AXES, RATE_AXES, SHAPES, Axis, Shape
+from .tables import Table, number, object_to, refuse
+
+Time: TypeAlias = Annotated[float, number(0.0, 86400.0)]  # s; a day
+Frequency: TypeAlias = Annotated[float, number(0.001, 1000.0)]
+
+_FREQUENCIES = {"sine": ("frequency_rad_s",), "sweep": ("frequency_rad_s", "end_frequency_rad_s")}  # keys that a shape needs
+
+
+def _one_of(names: Collection[str]) -> BeforeValidator:
+    """One of a few words."""
+
+    def check(value: Any) -> str:
+        """The word, or a refusal that names the allowed ones."""
+        if not isinstance(value, str) or value not in names:
+            raise refuse(", ".join(repr(name) for name in names))
+        return value
+
+    return BeforeValidator(check)
+
+
+class SignalTable(Table):
+    """One `[[vehicle.signal]]`: see vehicles.Signal. Which keys an axis and a shape need, `signal_rules` checks."""
+
+    axis: Annotated[Axis, _one_of(RATE_AXES + FORCE_AXES)]
+    shape: Annotated[Shape, _one_of(SHAPES)]
+    amplitude_deg_s: Annotated[float, number(-2500.0, 2500.0)] | None = None
+    amplitude_m_s2: Annotated[float, number(-400.0, 400.0)] | None = None
+    time_s: Time = 0.0
+    duration_s: Annotated[float, number(0.0, 86400.0, above=True)]
+    ramp_s: Annotated[float, number(0.0, 86400.0, above=True)] = DEFAULT_RAMP
+    frequency_rad_s: Frequency | None = None
+    end_frequency_rad_s: Frequency | None = None
+
+    @model_validator(mode="after")
+    def _fits(self) -> "SignalTable":
+        if all(getattr(self, key) is not None for key in _FREQUENCIES.get(self.shape, ())):
+            try:
+                self.signal().check()
+            except InputError as error:
+                raise object_to(str(error)) from None
+        return self
+
+    def signal(self) -> Signal:
+        """The same in SI."""
+        return Signal(
+            axis=self.axis,
+            shape=self.shape,
+            amplitude=radians(self.amplitude_deg_s or 0.0) if self.axis in RATE_AXES else self.amplitude_m_s2 or 0.0,
+            time=self.time_s,
+            duration=self.duration_s,
+            ramp=self.ramp_s,
+            frequency=self.frequency_rad_s or 0.0,
+            end_frequency=self.end_frequency_rad_s or 0.0,
+        )
+
+
+def signal_rules(signal: dict[str, Any]) -> list[tuple[str, str]]:
+    """Missing and superfluous keys of one signal; none for an axis or shape that is a mistake itself."""
+    axis, shape = signal.get("axis"), signal.get("shape")
+    rules: list[tuple[str, bool, str]] = []  # key, whether it belongs here, and with what
+    if axis in RATE_AXES + FORCE_AXES:
+        rules.append(("amplitude_deg_s", axis in RATE_AXES, f"axis = {axis!r}"))
+        rules.append(("amplitude_m_s2", axis in FORCE_AXES, f"axis = {axis!r}"))
+    if shape in SHAPES:
+        needed = _FREQUENCIES.get(str(shape), ())
+        rules += [(key, key in needed, f"shape = {shape!r}") for key in _FREQUENCIES["sweep"]]
+    wrong = [(key, belongs, owner) for key, belongs, owner in rules if (key in signal) != belongs]
+    return [(key, f"missing, needed with {owner}" if belongs else f"not with {owner}") for key, belongs, owner in wrong]

@@ -1,0 +1,104 @@
+"""A run in a process of its own; here that process is the test's, so nothing is confined."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from atlas_cueing.batch import execute as alone
+from atlas_cueing.batch.execute import fly_alone, left_by
+from atlas_cueing.batch.job import Limits, Order
+from atlas_cueing.batch.job_result import Record
+from atlas_cueing.errors import OutputError
+from atlas_cueing.run import run_scenario
+
+from .sweeping import order, planned
+
+
+def test_log_and_figures_are_those_of_a_plain_run(tmp_path: Path) -> None:
+    run = planned(tmp_path)[0]
+    out = tmp_path / "out"
+    out.mkdir()
+    record = fly_alone(order(run, out), out)
+    plain = run_scenario(run.scenario, tmp_path / "plain.mcap")
+    assert (record.result, record.log, record.ticks) == ("ok", f"{run.id}.mcap", plain.ticks)
+    assert (record.metrics, record.limit_use) == (plain.evaluation.metrics, plain.evaluation.limit_use)
+    assert (out / record.log).read_bytes() == plain.log.read_bytes()
+    assert [path.name for path in out.iterdir()] == [record.log]
+
+
+def test_a_model_that_does_not_load_is_a_failed_vehicle(tmp_path: Path) -> None:
+    run = planned(tmp_path, "vehicle.script=unitconversions")[0]
+    record = fly_alone(order(run, tmp_path), tmp_path)
+    assert (record.result, record.log, record.ticks) == ("vehicle_failed", "", 0)
+    assert "must be <runscript>" in record.reason
+
+
+def test_a_model_that_goes_wild(tmp_path: Path) -> None:
+    run = planned(tmp_path, "vehicle.script=cannonball", "duration_s=600")[0]
+    record = fly_alone(order(run, tmp_path), tmp_path)
+    assert (record.result, record.log) == ("vehicle_failed", f"{run.id}.mcap")
+    assert record.ticks > 10
+
+
+def broken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: Exception) -> Record:
+    def fail(*_: object) -> None:
+        raise error
+
+    monkeypatch.setattr(alone, "run_scenario", fail)
+    return fly_alone(order(planned(tmp_path)[0], tmp_path, Limits(memory=3.0)), tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("error", "result", "reason"),
+    [
+        (MemoryError(), "out_of_memory", "needs more than 3 GB"),
+        (OutputError("No space left"), "recording_failed", "No space left"),
+        (OSError(28, "No space left"), "recording_failed", "OSError: [Errno 28] No space left"),
+        (ZeroDivisionError("oops"), "failed", "ZeroDivisionError: oops"),
+    ],
+)
+def test_what_else_may_happen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: Exception, result: str, reason: str
+) -> None:
+    record = broken(tmp_path, monkeypatch, error)
+    assert (record.result, record.reason) == (result, reason)
+    assert record.final == (result in ("out_of_memory", "failed"))
+
+
+def test_a_worker_of_other_versions_does_not_fly(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    sent = order(planned(tmp_path)[0], tmp_path)
+    monkeypatch.setattr("atlas_cueing.batch.run_id._version", lambda _: b"another")
+    record = fly_alone(sent, tmp_path)
+    assert record.result == "worker_differs"
+    assert not list(tmp_path.glob("*.mcap*"))
+    assert not record.final
+
+
+def test_a_folder_that_is_gone(tmp_path: Path) -> None:
+    gone = tmp_path / "gone"
+    assert fly_alone(order(planned(tmp_path)[0], gone), gone).result == "recording_failed"
+
+
+def test_a_scenario_that_the_worker_cannot_read_is_a_failure_of_that_run(tmp_path: Path) -> None:
+    assert fly_alone(Order("r", str(tmp_path), {"scenario.toml": "["}, Limits()), tmp_path).result == "vehicle_failed"
+
+
+def test_a_log_that_was_left_is_named(tmp_path: Path) -> None:
+    sent = Order("r", str(tmp_path), {}, Limits())
+    assert left_by(sent, tmp_path) == ""
+    (tmp_path / "r.mcap").touch()
+    assert left_by(sent, tmp_path) == "r.mcap"
+    (tmp_path / "r.mcap.part").touch()
+    assert left_by(sent, tmp_path) == "r.mcap.part"
+
+
+def test_a_confined_process_is_refused_memory() -> None:
+    code = (
+        "from atlas_cueing.batch.execute import confine; confine(1.0)\n"
+        "try: bytearray(2 * 10**9)\n"
+        "except MemoryError: print('refused')\n"
+    )
+    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True).stdout
+    assert told == "refused\n"

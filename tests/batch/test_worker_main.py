@@ -1,0 +1,138 @@
+"""A worker as a process: what its runs do to it, and what it says of them."""
+
+import json
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+from time import sleep
+
+import pytest
+from waiting import until
+
+from atlas_cueing.batch import pool as workers
+from atlas_cueing.batch.folder_store import FolderResults
+from atlas_cueing.batch.job import Limits, Order
+from atlas_cueing.batch.job_result import Record
+
+from .sweeping import LIMITS, kept_in, order, planned, sabotage
+
+METHODS = ("blend", "attitude")
+
+
+def told(orders: list[Order]) -> list[Record]:
+    """What a worker of the present command says to the orders."""
+    process = subprocess.Popen(workers._COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    assert process.stdin
+    assert process.stdout
+    records = []
+    for each in orders:
+        process.stdin.write(each.to_line())
+        process.stdin.flush()
+        records.append(Record.from_json(json.loads(process.stdout.readline())))
+    assert process.communicate(timeout=60) == (b"", None)
+    assert process.returncode == 0
+    return records
+
+
+def orders(folder: Path, limits: Limits) -> list[Order]:
+    """A run that comes to harm under `sabotage`, and one that does not, after it in the same worker."""
+    first, second, *_ = planned(folder)
+    return [order(second, folder, limits), order(first, folder, replace(limits, time=LIMITS.time))]
+
+
+@pytest.mark.parametrize(
+    ("deed", "limits", "result", "reason"),
+    [
+        ("os.kill(os.getpid(), signal.SIGSEGV)", Limits(), "crashed", "ended by SIGSEGV"),
+        (
+            "os.write(2, b'free(): invalid pointer'); os.abort()",
+            Limits(),
+            "crashed",
+            "ended by SIGABRT: free(): invalid pointer",
+        ),
+        ("os._exit(3)", Limits(), "crashed", "ended with exit status 3"),
+        ("print('{}', flush=True); time.sleep(600)", Limits(time=1.0), "timed_out", "not over after 1 s"),
+        ("bytearray(2 * 10**9)", Limits(memory=1.0), "out_of_memory", "needs more than 1 GB: ended with exit status 1"),
+        (
+            "alone.run_scenario = lambda *_: bytearray(2 * 10**9); return fly(order, desk)".replace(
+                "; return", "\n        return"
+            ),
+            Limits(memory=1.0),
+            "out_of_memory",
+            "needs more than 1 GB",
+        ),
+    ],
+    ids=["signal", "abort", "exit", "hang", "memory", "memory-in-run"],
+)
+def test_one_runs_harm_is_no_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, deed: str, limits: Limits, result: str, reason: str
+) -> None:
+    sabotage(monkeypatch, deed)
+    harmed, sound = told(orders(tmp_path, limits))
+    assert (harmed.result, harmed.reason) == (result, reason)
+    assert kept_in(tmp_path, harmed.id) == harmed
+    assert sound.result == "ok"
+    assert (tmp_path / f"{sound.id}.mcap").is_file()
+
+
+def test_what_a_killed_run_recorded_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    sabotage(monkeypatch, "(Path(order.place) / f'{order.id}.mcap.part').touch(); os.abort()")
+    harmed, _ = told(orders(tmp_path, Limits()))
+    assert harmed.log == f"{harmed.id}.mcap.part"
+
+
+def test_the_real_command_from_a_folder_of_strange_modules(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing in the working directory is imported, nor gets printed text among the records."""
+    (tmp_path / "json.py").write_text("raise SystemExit('the wrong json')")
+    monkeypatch.chdir(tmp_path)
+    assert [record.result for record in told(orders(tmp_path, Limits()))] == ["ok", "ok"]
+
+
+def test_what_a_library_prints_in_the_worker_is_no_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    noisy = "os.register_at_fork(before=lambda: os.write(1, b'noise'))"
+    code = f"import os; from atlas_cueing.batch import worker; {noisy}; worker.main()"
+    monkeypatch.setattr(workers, "_COMMAND", (sys.executable, "-c", code))
+    assert [record.result for record in told(orders(tmp_path, Limits()))] == ["ok", "ok"]
+
+
+def test_when_the_driver_goes_the_run_goes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    sabotage(monkeypatch, "Path(order.place, 'pid').write_text(str(os.getpid())); time.sleep(600)")
+    process = subprocess.Popen(workers._COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    assert process.stdin
+    process.stdin.write(orders(tmp_path, Limits())[0].to_line())
+    process.stdin.flush()
+    pid = tmp_path / "pid"
+    while process.poll() is None and not (pid.exists() and pid.read_text()):
+        sleep(0.02)
+    assert process.communicate(timeout=60) == (b"", None)
+    with pytest.raises(ProcessLookupError):
+        os.kill(int(pid.read_text()), 0)
+    assert not list(tmp_path.glob("*.json"))
+
+
+def test_a_worker_that_waits_for_another_ends_with_its_driver(tmp_path: Path) -> None:
+    mine = orders(tmp_path, Limits())[0]
+    process = subprocess.Popen(workers._COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    with FolderResults(tmp_path).claimed(mine.id):
+        assert process.communicate(mine.to_line(), timeout=60) == (b"", None)
+    assert process.returncode == 0
+    assert not list(tmp_path.glob("*.mcap*"))
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="death with the parent needs Linux's prctl")
+def test_when_the_worker_is_killed_the_run_goes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    deed = "alone.run_scenario = lambda *_: (Path(order.place, 'pid').write_text(str(os.getpid())), time.sleep(600))"
+    sabotage(monkeypatch, deed)
+    process = subprocess.Popen(workers._COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    assert process.stdin
+    process.stdin.write(orders(tmp_path, Limits())[0].to_line())
+    process.stdin.flush()
+    pid = tmp_path / "pid"
+    while process.poll() is None and not (pid.exists() and pid.read_text()):
+        sleep(0.02)
+    process.kill()
+    process.communicate(timeout=60)  # stdout ends only when the run, which holds it too, has let go of it
+    state = Path(f"/proc/{pid.read_text()}/stat")
+    until(lambda: not state.exists() or state.read_text().split()[2] in "ZX", 60.0)

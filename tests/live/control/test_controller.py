@@ -1,0 +1,186 @@
+"""One tick whatever happens: what is believed, what is asked, how a run ends, and that a tick never raises."""
+
+import pytest
+
+from atlas_cueing.errors import VehicleError
+from atlas_cueing.live.control.state_machine import State
+
+from ..rig import ROUNDING, Rig
+
+QUICK = ("cueing.stage.planner=onset",)
+
+
+def rig_in(state: State, **options: object) -> Rig:
+    rig = Rig(settings=QUICK, **options)  # type: ignore[arg-type]
+    rig.bring_to(state)
+    return rig
+
+
+def test_nothing_moves_before_a_second_of_good_input() -> None:
+    rig = Rig(settings=QUICK)
+    rig.source.quiet = True
+    rig.press("engage")
+    rig.fly(3.0)
+    assert rig.state is State.ENGAGING
+    assert not rig.ride.blending
+    rig.source.quiet = False
+    assert 0.99 <= rig.until(lambda: rig.ride.blending, 2.0) <= 1.03
+    assert 2.9 <= rig.until(State.RUNNING, 6.0) <= 5.1
+
+
+def test_trouble_while_waiting_makes_it_wait_again() -> None:
+    rig = Rig(settings=QUICK)
+    rig.press("engage")
+    rig.fly(0.9)
+    rig.source.jumps = True
+    rig.tick()
+    assert rig.state is State.ENGAGING
+    assert 0.99 <= rig.until(lambda: rig.ride.blending, 2.0) <= 1.03
+
+
+def test_a_sources_own_time_goes_on_only_while_running() -> None:
+    rig = rig_in(State.HOLDING)
+    running = [timing.state == State.RUNNING.number for timing in rig.tape.timings]
+    assert rig.source.advanced == running
+    assert running.count(True) > 50
+
+
+def test_engaging_pins_the_sender() -> None:
+    rig = Rig(settings=QUICK)
+    assert rig.source.pinned == 0
+    rig.press("engage")
+    rig.tick()
+    assert rig.source.pinned == 1
+
+
+@pytest.mark.parametrize("button", ["park", "reset"])
+def test_an_operators_hold_is_ended_by_engaging_only(button: str) -> None:
+    """A reset while holding is no wish to go on."""
+    rig = rig_in(State.HOLDING)
+    rig.press(button)
+    rig.fly(3.0)
+    assert rig.state is (State.PARKING if button == "park" else State.HOLDING)
+    if button == "reset":
+        rig.press("engage")
+        rig.until(State.RUNNING, 8.0)
+
+
+def test_a_hold_of_the_input_can_be_made_the_operators() -> None:
+    rig = rig_in(State.RUNNING)
+    rig.source.jumps = True
+    rig.tick()
+    rig.press("hold")
+    rig.fly(4.0)
+    assert rig.state is State.HOLDING
+
+
+def test_unknown_buttons_do_nothing() -> None:
+    rig = Rig(settings=QUICK)
+    rig.press("explode", "")
+    rig.fly(0.1)
+    assert rig.state is State.PARKED
+    assert rig.conductor.ended.faults == 0
+
+
+@pytest.mark.parametrize("attended", [False, True])
+def test_a_source_that_is_broken_for_good_does_not_keep_the_run_from_ending(attended: bool) -> None:
+    rig = rig_in(State.RUNNING, attended=attended)
+    rig.source.raises = RuntimeError("gone")
+    rig.tick()
+    assert rig.state is State.FAULT_STOPPING
+    rig.until(State.STOPPED, 2.0)
+    assert rig.conductor.over != attended
+    rig.wanted.signals = 1
+    rig.tick()
+    assert rig.conductor.over
+    assert (rig.conductor.ended.result, rig.conductor.ended.reason) == ("fault", "RuntimeError: gone")
+    assert rig.conductor.ended.faults == 1
+    assert rig.excess() <= ROUNDING
+
+
+def test_a_reset_with_a_broken_source_is_a_fault_again() -> None:
+    rig = rig_in(State.STOPPED)
+    rig.source.raises = RuntimeError("gone")
+    rig.press("reset")
+    rig.tick()
+    rig.until(State.STOPPED, 2.0)
+    assert rig.conductor.ended.faults == 2
+
+
+def test_the_vehicle_in_the_log_stays_where_it_was_when_a_source_breaks() -> None:
+    rig = rig_in(State.RUNNING)
+    known = rig.tape.ticks[-1].vehicle
+    rig.source.raises = RuntimeError("gone")
+    rig.tick()
+    assert rig.tape.ticks[-1].vehicle.q_NB == known.q_NB
+    assert rig.tape.ticks[-1].vehicle.f_B == known.f_B
+
+
+def test_a_vehicle_that_fails_ends_the_run_parked() -> None:
+    rig = rig_in(State.RUNNING, attended=False)
+    rig.source.bad = 2
+    rig.fly(0.02)
+    rig.source.raises = VehicleError(1.25, "diverged")
+    rig.tick()
+    assert rig.state is State.PARKING
+    rig.until(lambda: rig.conductor.over, 10.0)
+    assert (rig.conductor.ended.result, rig.conductor.ended.faults) == ("vehicle_failed", 0)
+    assert rig.conductor.ended.reason == "vehicle failed at 1.250 s: diverged"
+    assert rig.conductor.ended.dropped == 2
+
+
+def test_the_end_of_the_flight_is_the_end_of_the_run() -> None:
+    rig = rig_in(State.RUNNING, attended=False)
+    rig.source.over = True
+    rig.until(lambda: rig.conductor.over, 10.0)
+    assert rig.state is State.PARKED
+    assert rig.conductor.ended.result == "ok"
+    assert rig.tape.statuses[-2][2] == "the run is over"
+
+
+def test_a_duration_parks() -> None:
+    rig = Rig(settings=QUICK, attended=False, duration=7.0)
+    rig.press("engage")
+    assert 7.0 <= rig.until(State.PARKING, 8.0) <= 7.02
+    rig.until(lambda: rig.conductor.over, 10.0)
+    assert rig.conductor.ended.result == "ok"
+
+
+def test_input_lost_ends_an_unattended_run_and_not_an_attended_one() -> None:
+    for attended in (False, True):
+        rig = rig_in(State.RUNNING, attended=attended)
+        rig.source.quiet = True
+        rig.until(State.PARKED, 12.0)
+        assert rig.conductor.over != attended
+        assert rig.conductor.ended.result == ("ok" if attended else "input_lost")
+    rig.source.quiet = False
+    rig.press("engage")
+    rig.until(State.RUNNING, 8.0)
+
+
+def test_what_was_dropped_is_counted() -> None:
+    rig = rig_in(State.RUNNING)
+    rig.source.bad = 2
+    rig.fly(0.1)
+    assert rig.conductor.ended.dropped == 2
+    assert rig.state is State.RUNNING
+
+
+def test_the_first_reason_is_the_one_that_is_kept() -> None:
+    rig = rig_in(State.RUNNING, attended=False)
+    rig.source.raises = VehicleError(1.0, "diverged")
+    rig.tick()
+    rig.tick(lateness=0.5)
+    rig.until(lambda: rig.conductor.over, 2.0)
+    assert rig.conductor.ended.result == "vehicle_failed"
+    assert rig.conductor.ended.faults == 1
+
+
+def test_a_vehicle_of_the_other_sign_does_not_tear_the_log() -> None:
+    rig = Rig(settings=QUICK)
+    rig.source.quiet = True
+    rig.fly(0.05)
+    rig.source.q = (-1.0, 0.0, 0.0, 0.0)
+    rig.source.quiet = False
+    rig.fly(0.05)
+    assert all(tick.vehicle.q_NB[0] > 0.9 for tick in rig.tape.ticks)

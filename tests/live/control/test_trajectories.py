@@ -1,0 +1,216 @@
+"""Courses by themselves: where they lead, and that what they give as rates is the derivative of where they are."""
+
+from collections.abc import Callable
+from itertools import pairwise
+from math import cos, pi, sin
+
+import numpy as np
+import pytest
+from hypothesis import Phase, given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from atlas_cueing.live.control.trajectories import (
+    CALM_ACCELERATION,
+    CALM_RATE,
+    CALM_SPEED,
+    HALT_TIME,
+    Blend,
+    Course,
+    Follow,
+    Halt,
+    Home,
+    Stay,
+    calm_time,
+    smoothstep,
+)
+from atlas_cueing.rotation import IDENTITY, ZERO, Quat, Vec3, exp, geodesic, multiply, norm, scale
+from atlas_cueing.signals import Cue, Motion
+
+Array = NDArray[np.float64]
+
+DT = 2e-3
+FEW = settings(
+    max_examples=8, phases=[Phase.explicit, Phase.reuse, Phase.generate]
+)  # each is a whole course; shrinking takes minutes
+TRAVEL = (1.0, 1.0, 0.75)
+HOME = Cue(0.0, IDENTITY, ZERO, ZERO, ZERO, ZERO)
+UPRIGHT = Motion(0.0, IDENTITY, ZERO, ZERO, ZERO, ZERO, ZERO, (0.0, 0.0))
+
+
+def motion(q: Quat = IDENTITY, w: Vec3 = ZERO, p: Vec3 = ZERO, v: Vec3 = ZERO) -> Motion:
+    return Motion(0.0, q, w, ZERO, p, v, ZERO, (0.0, 0.0))
+
+
+def spinning(w: Vec3, q0: Quat = IDENTITY) -> Callable[[float], Cue]:
+    """A cue that turns with a constant rate in W and swings on the stage."""
+
+    def at(t: float) -> Cue:
+        s, c = sin(2.0 * t), cos(2.0 * t)
+        return Cue(
+            t, multiply(exp(scale(t, w)), q0), w, (0.3 * s, 0.1, 0.2 * c), (0.6 * c, 0.0, -0.4 * s), (-1.2 * s, 0.0, -0.8 * c)
+        )
+
+    return at
+
+
+def resting(_: float) -> Cue:
+    return HOME
+
+
+def drive(course: Course, seconds: float, cue: Callable[[float], Cue] = resting, dt: float = DT) -> list[Cue]:
+    return [course.step(cue(dt * (k + 1))) for k in range(round(seconds / dt))]
+
+
+def columns(cues: list[Cue]) -> tuple[Array, Array, Array, Array, Array]:
+    q, w, p, v, a = (np.array([getattr(c, name) for c in cues]) for name in ("q_WS", "w_WS_W", "p_WS_W", "v_WS_W", "a_WS_W"))
+    return q, w, p, v, a
+
+
+def check_derivatives(cues: list[Cue], dt: float = DT, size: float = 1.0) -> None:
+    """Central differences over two ticks, with an error of dt^2 times a third derivative of some `size`.
+
+    That of the acceleration is dt / 2 times the jerk, which jumps at both ends of a smoothstep.
+    """
+    q, w, p, v, a = columns(cues)
+    r = Rotation.from_quat(q, scalar_first=True)
+    near = 60.0 * size * dt**2 + 1e-9
+    np.testing.assert_allclose((r[2:] * r[:-2].inv()).as_rotvec() / (2.0 * dt), w[1:-1], rtol=0.0, atol=near)
+    np.testing.assert_allclose((p[2:] - p[:-2]) / (2.0 * dt), v[1:-1], rtol=0.0, atol=near)
+    np.testing.assert_allclose((v[2:] - v[:-2]) / (2.0 * dt), a[1:-1], rtol=0.0, atol=5.0 * size * dt)
+    assert np.all(np.sum(q[1:] * q[:-1], axis=1) > 0.0), "the quaternion's sign jumps"
+    np.testing.assert_allclose(np.linalg.norm(q, axis=1), 1.0, atol=1e-12)
+
+
+unit = st.tuples(*(st.floats(-1.0, 1.0),) * 4).filter(lambda q: np.hypot.reduce(q) > 0.1)
+quaternions = unit.map(lambda q: tuple((np.array(q) / np.hypot.reduce(q)).tolist()))
+rates = st.tuples(*(st.floats(-1.5, 1.5),) * 3)
+places = st.tuples(*(st.floats(-0.7, 0.7),) * 3)
+
+
+def test_smoothstep_and_its_derivatives() -> None:
+    t = np.linspace(-0.2, 1.2, 1401)
+    s, ds, dds = np.array([smoothstep(float(x)) for x in t]).T
+    np.testing.assert_allclose(np.gradient(s, t)[1:-1], ds[1:-1], atol=1e-4)
+    np.testing.assert_allclose(np.gradient(ds, t)[1:-1], dds[1:-1], atol=3e-2)
+    assert np.all(np.diff(s) >= 0.0)
+    for x, end in ((-0.1, 0.0), (0.0, 0.0), (1.0, 1.0), (1.1, 1.0)):
+        assert smoothstep(x) == (end, 0.0, 0.0)
+    assert smoothstep(1e-6) == pytest.approx((0.0, 0.0, 0.0), abs=1e-4)
+    assert smoothstep(0.5)[0] == 0.5
+
+
+@settings(max_examples=30)
+@given(st.floats(0.0, pi), st.floats(0.0, 2.0))
+def test_a_calm_move_is_calm_and_no_calmer_than_need_be(angle: float, distance: float) -> None:
+    duration = calm_time(angle, distance)
+    if max(angle, distance) < 1e-6:
+        return
+    s = np.array([smoothstep(float(x)) for x in np.linspace(0.0, 1.0, 2001)])
+    rate, speed = s[:, 1].max() / duration * angle, s[:, 1].max() / duration * distance
+    acceleration = np.abs(s[:, 2]).max() / duration**2 * distance
+    use = max(rate / CALM_RATE, speed / CALM_SPEED, acceleration / CALM_ACCELERATION)
+    assert use == pytest.approx(1.0, abs=1e-4)
+
+
+def test_follow_is_the_cue_and_stay_is_a_place() -> None:
+    cue = spinning((0.1, 0.2, 0.3))(1.0)
+    assert Follow().step(cue) is cue
+    still = Stay(motion((0.6, 0.8, 0.0, 0.0), (1.0, 0.0, 0.0), (0.1, 0.2, 0.3), (1.0, 0.0, 0.0)))
+    assert still.step(cue) == Cue(1.0, (0.6, 0.8, 0.0, 0.0), ZERO, (0.1, 0.2, 0.3), ZERO, ZERO)
+    assert still.arrived
+    assert Follow().arrived
+
+
+@FEW
+@given(quaternions, rates, places, rates)
+def test_a_halt_fades_every_rate_out(q: Quat, w: Vec3, p: Vec3, v: Vec3) -> None:
+    halt = Halt(motion(q, w, p, v), DT, (5.0, 5.0, 5.0))
+    cues = drive(halt, HALT_TIME + 2 * DT)
+    check_derivatives(cues)
+    assert halt.arrived
+    end = cues[-1]
+    assert (end.w_WS_W, end.v_WS_W, end.a_WS_W) == (ZERO, ZERO, ZERO)
+    assert geodesic(end.q_WS, multiply(exp(scale(0.5 * HALT_TIME, w)), q)) < 1e-9
+    assert end.p_WS_W == pytest.approx([x + 0.5 * HALT_TIME * y for x, y in zip(p, v, strict=True)], abs=1e-12)
+    turn = [norm(cue.w_WS_W) for cue in cues]
+    assert all(after <= before + 1e-12 for before, after in pairwise(turn))
+
+
+def test_a_halt_has_not_arrived_before_its_time() -> None:
+    halt = Halt(motion(w=(1.0, 0.0, 0.0)), DT, TRAVEL)
+    drive(halt, HALT_TIME - 2 * DT)
+    assert not halt.arrived
+
+
+@FEW
+@given(places, rates)
+def test_a_halt_stays_inside_the_travel(p: Vec3, v: Vec3) -> None:
+    """But for its first millisecond, at the very end of the travel."""
+    for cue in drive(Halt(motion(p=p, v=v), DT, TRAVEL), HALT_TIME, dt=0.01):
+        assert all(abs(x) <= limit + 1.5e-3 for x, limit in zip(cue.p_WS_W, TRAVEL, strict=True))
+
+
+@pytest.mark.parametrize("place", [0.999, 1.0, 1.0 + 1e-12])
+def test_a_halt_at_the_rail(place: float) -> None:
+    cues = drive(Halt(motion(p=(place, 0.0, 0.0), v=(1.0, 0.0, 0.0)), DT, TRAVEL), HALT_TIME + DT)
+    assert np.all(np.isfinite(columns(cues)[4]))
+    assert abs(cues[-1].p_WS_W[0] - 1.0) < 1e-3
+    assert cues[-1].v_WS_W == ZERO
+
+
+@FEW
+@given(quaternions, places)
+def test_home_by_the_shorter_way(q: Quat, p: Vec3) -> None:
+    home = Home(motion(q, p=p), DT)
+    cues = drive(home, home.duration + 2 * DT)
+    check_derivatives(cues)
+    assert home.arrived
+    assert geodesic(cues[-1].q_WS, IDENTITY) < 1e-7
+    assert norm(cues[-1].p_WS_W) < 1e-12
+    turn = Rotation.from_quat([cue.q_WS for cue in cues], scalar_first=True)
+    way = np.sum((turn[1:] * turn[:-1].inv()).magnitude())
+    assert way == pytest.approx(geodesic(q, IDENTITY), abs=1e-4)
+    assert max(norm(cue.w_WS_W) for cue in cues) <= CALM_RATE * (1.0 + 1e-9)
+    assert max(norm(cue.v_WS_W) for cue in cues) <= CALM_SPEED * (1.0 + 1e-9)
+
+
+def test_home_takes_a_second_from_nowhere() -> None:
+    home = Home(UPRIGHT, DT)
+    assert home.duration == 1.0
+    drive(home, 0.99)
+    assert not home.arrived
+
+
+@FEW
+@given(quaternions, places, quaternions, st.tuples(*(st.floats(-0.4, 0.4),) * 3), st.floats(1.0, 4.0))
+def test_a_blend_is_smooth_from_rest_to_a_spinning_cue(q: Quat, p: Vec3, q_cue: Quat, w: Vec3, duration: float) -> None:
+    """Also where the turn still left grows beyond half a turn on the way."""
+    cue = spinning(w, q_cue)
+    blend = Blend(motion(q, p=p), cue(0.0), DT, duration)
+    cues = drive(blend, duration + 5 * DT, cue)
+    assert blend.arrived
+    last = round(duration / DT) - 1
+    check_derivatives(cues[:last], size=1.0 + 40.0 / duration**2)
+    assert norm(cues[0].w_WS_W) < 1e-2
+    assert norm(cues[0].v_WS_W) < 1e-2
+    assert cues[-1] == cue(DT * len(cues))
+    before = cues[last - 1]
+    assert geodesic(before.q_WS, cue(DT * last).q_WS) < 1e-4
+    np.testing.assert_allclose(before.w_WS_W, w, atol=2e-2)
+
+
+@pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.6, 0.0, 0.8)])
+def test_a_blend_over_half_a_turn_that_grows(axis: Vec3) -> None:
+    """The cue runs away from the platform: what was half a turn becomes more, and the way must not change over."""
+    cue = spinning(scale(1.2, axis), exp(scale(pi - 0.1, axis)))
+    check_derivatives(drive(Blend(UPRIGHT, cue(0.0), DT, 4.0), 3.999, cue), size=5.0)
+
+
+def test_a_blend_to_a_cue_that_rests_is_the_straight_way() -> None:
+    cue = Cue(0.0, exp((0.0, 0.0, 1.0)), ZERO, (0.5, 0.0, 0.0), ZERO, ZERO)
+    for k, at in enumerate(drive(Blend(UPRIGHT, cue, DT, 2.0), 1.999, lambda _: cue), 1):
+        s = smoothstep(k * DT / 2.0)[0]
+        assert geodesic(at.q_WS, exp((0.0, 0.0, s))) < 1e-9
+        assert at.p_WS_W == pytest.approx((0.5 * s, 0.0, 0.0), abs=1e-12)

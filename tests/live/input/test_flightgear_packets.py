@@ -1,0 +1,123 @@
+"""Packets that no good simulator sends: bad, replayed, too many, from strangers. None of them is believed."""
+
+from math import inf, nan
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from vehicles.packets import packet
+
+from atlas_cueing.live.input.flightgear_source import MAX_PACKETS
+from atlas_cueing.vehicles import Bounds
+
+from ..flightgear_rides import RATE, SIMULATOR, STRANGER, Ride, every, packet_of, states
+from ..motions import angles
+
+BAD = {
+    "nan": packet(force=(nan, 0.0, -32.0)),
+    "absurd": packet(euler_rates=(1e6, 0.0, 0.0)),
+    "version": packet(version=25) + bytes(144),
+    "size": packet()[:-4],
+    "empty": b"",
+    "text": b"GET / HTTP/1.1\r\n\r\n",
+}
+
+
+@pytest.mark.parametrize("bad", BAD.values(), ids=BAD)
+def test_bad_packets_are_dropped_and_change_nothing(bad: bytes) -> None:
+    """One, two, three in a row are counted; a good one sets the count back."""
+    ride, undisturbed = Ride(), Ride()
+    for each in (ride, undisturbed):
+        each.send(every(0.0, 1.0))
+        each.until(1.0)
+        each.send(every(1.0 + 1.0 / RATE, 2.0))
+    for k in range(3):
+        ride.port._waiting.appendleft((1.002 + 0.002 * k, bad, SIMULATOR))
+        intake = ride.read(1.002 + 0.002 * k)
+        assert (intake.dropped, intake.bad_in_a_row, intake.jumped) == (1, k + 1, False)
+        assert intake.reason
+        assert intake.vehicle == undisturbed.read(1.002 + 0.002 * k).vehicle
+    later = ride.until(2.0, 1.006)
+    assert later[-1].bad_in_a_row == 0
+    assert states(later) == states(undisturbed.until(2.0, 1.006))
+
+
+def test_out_of_order_and_replayed_packets_are_dropped() -> None:
+    """A packet of half a second ago between two good ones."""
+    ride = Ride()
+    for k, t in enumerate(every(0.0, 3.0)):
+        ride.send([t])
+        if k >= 60 and k % 10 == 0:
+            ride.port.send(packet_of(ride.motion.at(t - 0.5)), t + 0.004)
+    got = ride.until(3.0)
+    assert sum(intake.dropped for intake in got) == 12
+    assert max(intake.bad_in_a_row for intake in got) == 1
+    assert not any(intake.jumped for intake in got)
+    flown = states(got)[250:]
+    assert float(np.max(angles(flown, [ride.motion.at(s.time) for s in flown]))) < 0.01
+
+
+def test_a_copy_right_behind_is_dropped() -> None:
+    ride = Ride()
+    for t in every(0.0, 1.0):
+        ride.send([t])
+        ride.send([t], delay=0.001)
+    got = ride.until(1.0)
+    assert sum(intake.dropped for intake in got) == 60
+    assert {intake.reason for intake in got if intake.dropped} == {"a copy of the packet before it"}
+    assert not any(intake.jumped for intake in got)
+
+
+def test_work_is_bounded_in_a_flood() -> None:
+    ride = Ride()
+    for k in range(1000):
+        ride.port.send(b"flood", 0.0001 * k)
+    intake = ride.read(1.0)
+    assert ride.port.received == MAX_PACKETS
+    assert intake.dropped == intake.bad_in_a_row == MAX_PACKETS
+
+
+def test_a_stranger_is_not_heard_after_pinning() -> None:
+    """Neither followed nor able to stop the vehicle: what it sends does not count as a row of bad packets."""
+    ride = Ride()
+    ride.send(every(0.0, 1.0))
+    ride.until(1.0)
+    ride.source.pin()
+    assert ride.port.pinned == SIMULATOR
+    for t in every(1.0, 2.0):
+        ride.send([t])
+        ride.port.send(packet_of(ride.motion.at(t + 2.0)), t + 0.003, STRANGER)
+        ride.port.send(b"nonsense", t + 0.004, STRANGER)
+    got = ride.until(2.0, 1.0)
+    assert sum(intake.dropped for intake in got) == 120
+    assert not any(intake.bad_in_a_row or intake.jumped for intake in got)
+    assert any("40001" in intake.reason and "40000" in intake.reason for intake in got)
+    assert float(np.max(angles(states(got), [ride.motion.at(s.time) for s in states(got)]))) < 0.01
+
+
+def test_pinning_before_any_packet_pins_nobody() -> None:
+    ride = Ride()
+    ride.source.pin()
+    assert ride.port.pinned is None
+    ride.send(every(0.0, 0.1))
+    assert states(ride.until(0.2))
+    ride.source.close()
+    assert ride.port.closed
+
+
+@settings(max_examples=30)
+@given(st.lists(st.tuples(st.floats(0.0, 0.03), st.one_of(st.binary(max_size=420), st.integers(0, 5), st.none())), max_size=60))
+def test_whatever_comes_the_state_stays_believable(events: list[tuple[float, bytes | int | None]]) -> None:
+    """Good, shifted, copied and senseless packets at any times."""
+    ride, time = Ride(), 0.0
+    for wait, what in events:
+        time += wait
+        content = what if isinstance(what, bytes) else packet_of(ride.motion.at(time + (what or 0)))
+        ride.port.send(content, time)
+    wide = Bounds(force=1e4, rate=60.0)
+    for intake in ride.until(time + 0.3, loop_hz=100.0):
+        assert intake.dropped >= 0
+        if intake.vehicle is not None:
+            assert wide.objection(intake.vehicle, 0.0) == ""
+            assert 0.0 <= intake.age < inf
