@@ -5,7 +5,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from .cueing import Cues
+from .cueing import CueSource
 from .signals import Tick, VehicleState, WheelDrive
 from .smoothing import Smoothing
 
@@ -14,7 +14,7 @@ from .smoothing import Smoothing
 class Pipeline:
     """One flight's chain from vehicle to wheels; cueing and smoothing hold the state, so use a new one for each flight."""
 
-    cueing: Cues
+    cueing: CueSource
     smoothing: Smoothing
     wheels: WheelDrive
 

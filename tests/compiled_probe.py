@@ -71,7 +71,7 @@ def cues(randomly: random.Random) -> Iterator[Cue]:
 def smoothed() -> tuple[str, str]:
     """Hashes of all motions with their wheels, and of all commands: what the guard let through, and then its stop."""
     platform, dt = load_platform("atlas-2.9m"), 1.0 / 120.0
-    limits = platform.wheel_speed_limits(), platform.stage_motion_limits()
+    limits = platform.wheel_limit_values(), platform.stage_limit_values()
     wheels, guard = Wheels(platform.geometry()), Guard(dt, *limits)
     smoothing = Smoothing(
         dt=dt,

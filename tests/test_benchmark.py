@@ -18,7 +18,17 @@ ROOT = Path(__file__).parents[1]
 TOOL = ROOT / "tools" / "benchmark"
 sys.path.insert(0, str(TOOL.parent))  # where its modules lie
 
-from benchmarks import batches, memory, recorder, report, reviewing, stages, start_up, timing, whole_run  # noqa: E402
+from benchmarks import (  # noqa: E402
+    batches,
+    memory,
+    recorder,
+    report,
+    reviewing,
+    stages,
+    start_up,
+    timing,
+    whole_run,
+)
 from benchmarks.effort import FULL, QUICK, Bench, Effort  # noqa: E402
 from benchmarks.machine import Stolen, build_kind, facts  # noqa: E402
 from benchmarks.rows import Asked, Row  # noqa: E402

@@ -17,7 +17,7 @@ import pytest
 from atlas_cueing.cueing.stage.mpc_qp import HorizonProblem
 from atlas_cueing.cueing.stage.mpc_unconstrained import Plan
 from atlas_cueing.recording import McapRecorder
-from atlas_cueing.run import build
+from atlas_cueing.run import build_pipeline
 from atlas_cueing.scenario import Scenario, load_scenario
 from atlas_cueing.signals import Tick, VehicleState
 from atlas_cueing.vehicles import JsbsimVehicle
@@ -83,7 +83,7 @@ def calls(step: Callable[[Any], Any], items: Sequence[Any]) -> tuple[float, list
 
 def stage_calls(of: Scenario, states: Sequence[VehicleState], log: Path) -> dict[str, float]:
     """Calls a tick of every stage of one flight."""
-    pipeline = build(of, 1.0 / RATE_HZ)
+    pipeline = build_pipeline(of, 1.0 / RATE_HZ)
     cueing, cues = calls(pipeline.cueing.step, states)
     smoothing, motions = calls(pipeline.smoothing.step, cues)
     wheels, speeds = calls(pipeline.wheels.speeds, motions)
@@ -123,7 +123,7 @@ def test_plans_of_a_second(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
         return solve(*arguments)
 
     monkeypatch.setattr(HorizonProblem, "solve", counted)
-    pipeline = build(of, 1.0 / RATE_HZ)
+    pipeline = build_pipeline(of, 1.0 / RATE_HZ)
     for state in states:
         pipeline.step(state)
     assert 0 < solved <= ROOM * SOLVES * 4.0
@@ -132,7 +132,7 @@ def test_plans_of_a_second(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 def test_a_recorder_keeps_a_chunk_and_no_more(tmp_path: Path) -> None:
     """Memory held after 4000 ticks is that after 400, but for the index of the chunks: 30 bytes a tick of 700."""
     of = scenario(tmp_path, 1.0)
-    pipeline = build(of, 1.0 / RATE_HZ)
+    pipeline = build_pipeline(of, 1.0 / RATE_HZ)
     ticks = [pipeline.step(state) for state in flight(of)]
     recorder = McapRecorder(tmp_path / "log.mcap", head_S=of.platform.head_S, metadata={}, attachments={}, chunk_ticks=CHUNK)
     held = {}

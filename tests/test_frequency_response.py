@@ -14,7 +14,7 @@ from atlas_cueing.cueing import (
     ClassicalParameters,
     ForceParameters,
 )
-from atlas_cueing.run import build
+from atlas_cueing.run import build_pipeline
 from atlas_cueing.scenario import Scenario, load_scenario
 from atlas_cueing.scenario.cueing_table import METHODS
 from atlas_cueing.signals import STANDARD_GRAVITY as G
@@ -171,7 +171,7 @@ class Late:
     """A pipeline that is one tick late."""
 
     def __init__(self, scenario: Scenario, dt: float) -> None:
-        self._pipeline, self._state = build(scenario, dt), None
+        self._pipeline, self._state = build_pipeline(scenario, dt), None
 
     def step(self, state: Any) -> Any:
         before, self._state = self._state or state, state
@@ -180,9 +180,9 @@ class Late:
 
 
 @pytest.mark.usefixtures("quick")
-@pytest.mark.parametrize(("pipeline", "ticks"), [(build, 0.0), (Late, 1.0)])
+@pytest.mark.parametrize(("pipeline", "ticks"), [(build_pipeline, 0.0), (Late, 1.0)])
 def test_a_delay_is_measured_in_ticks(monkeypatch: pytest.MonkeyPatch, pipeline: Any, ticks: float) -> None:
     """Motion and state of one tick belong together: no delay. A tick too late would be seen."""
-    monkeypatch.setattr(tool, "build", pipeline)
+    monkeypatch.setattr(tool, "build_pipeline", pipeline)
     points = [measured("attitude", "yaw_rate", w)["yaw_rate"] for w in (2.512, 15.85)]
     assert tool.delay_ticks(points, RATE_HZ) == pytest.approx(ticks, abs=0.01)

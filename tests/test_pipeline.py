@@ -1,4 +1,4 @@
-from atlas_cueing.cueing import BlendParameters, Cueing, StageParameters, build
+from atlas_cueing.cueing import BlendParameters, Cueing, StageParameters, build_cueing
 from atlas_cueing.pipeline import Pipeline
 from atlas_cueing.rotation import IDENTITY, ZERO
 from atlas_cueing.scenario import load_platform
@@ -23,7 +23,7 @@ class SpyDrive:
 
 
 def cueing() -> Cueing:
-    return build(BlendParameters(), StageParameters(), PLATFORM.stage_motion_limits(), PLATFORM.head_S, DT)
+    return build_cueing(BlendParameters(), StageParameters(), PLATFORM.stage_limit_values(), PLATFORM.head_S, DT)
 
 
 def smoothing() -> Smoothing:
@@ -31,8 +31,8 @@ def smoothing() -> Smoothing:
         dt=DT,
         wheels_from_sphere=WHEELS.wheels_from_sphere,
         sphere_from_wheels=WHEELS.sphere_from_wheels,
-        wheel_limits=PLATFORM.wheel_speed_limits(),
-        stage_limits=PLATFORM.stage_motion_limits(),
+        wheel_limits=PLATFORM.wheel_limit_values(),
+        stage_limits=PLATFORM.stage_limit_values(),
     )
 
 

@@ -7,21 +7,21 @@ table.
 
 from .cluster import on_cluster
 from .fly_batch import Fly, Outcome, fly_batch, missing
-from .job import Limits
-from .job_result import Record
+from .job import RunLimits
+from .job_result import JobResult
 from .overview import overview
 from .plan import PlannedRun, plan
 from .pool import fly_here
-from .store import Results, check_results, results_at
+from .store import ResultStore, check_results, open_store
 from .table import csv_of, metric_names, ordered, rows
 
 __all__ = [
     "Fly",
-    "Limits",
+    "JobResult",
     "Outcome",
     "PlannedRun",
-    "Record",
-    "Results",
+    "ResultStore",
+    "RunLimits",
     "check_results",
     "csv_of",
     "fly_batch",
@@ -29,9 +29,9 @@ __all__ = [
     "metric_names",
     "missing",
     "on_cluster",
+    "open_store",
     "ordered",
     "overview",
     "plan",
-    "results_at",
     "rows",
 ]

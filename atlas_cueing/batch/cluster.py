@@ -20,8 +20,8 @@ from time import sleep
 from typing import Any
 
 from ..errors import InputError, MissingExtraError
-from .job import Order
-from .job_result import Record
+from .job import Job
+from .job_result import JobResult
 from .pool import ATTEMPTS, Stop, Worker, lost
 
 LOCAL = "local"  # in place of an address: a scheduler and workers on 127.0.0.1, for this batch only
@@ -32,7 +32,7 @@ _own = threading.local()  # a worker process for each thread of a dask worker
 
 
 @contextmanager
-def on_cluster(address: str, jobs: int) -> Iterator[Callable[[Iterable[Order], Stop], Iterator[Record]]]:
+def on_cluster(address: str, jobs: int) -> Iterator[Callable[[Iterable[Job], Stop], Iterator[JobResult]]]:
     """What flies orders on the cluster of a scheduler (`tcp://HOST:PORT`), or on `jobs` LOCAL workers; records as they come.
 
     The runs of a lost worker are begun again elsewhere; one that loses ATTEMPTS workers is given up as `worker_lost`. Once
@@ -42,12 +42,12 @@ def on_cluster(address: str, jobs: int) -> Iterator[Callable[[Iterable[Order], S
         yield partial(_fly, client)
 
 
-def _fly(client: Any, todo: Iterable[Order], stop: Stop) -> Iterator[Record]:
+def _fly(client: Any, todo: Iterable[Job], stop: Stop) -> Iterator[JobResult]:
     from distributed import as_completed
 
     orders = iter(todo)
 
-    known: dict[str, Order] = {}
+    known: dict[str, Job] = {}
 
     def submit(count: int) -> list[Any]:
         """Hand the next orders, `count` at most, to the scheduler; gives their futures."""
@@ -67,19 +67,19 @@ def _fly(client: Any, todo: Iterable[Order], stop: Stop) -> Iterator[Record]:
             yield record
 
 
-def _record(future: Any, order: Order) -> Record:
+def _record(future: Any, order: Job) -> JobResult:
     if future.status == "finished":
-        record: Record = future.result()
+        record: JobResult = future.result()
         return record
     if future.status == "cancelled":
-        return Record(order.id, "worker_lost", "the cluster gave it up")
+        return JobResult(order.id, "worker_lost", "the cluster gave it up")
     error = future.exception()
     if type(error).__name__ == "KilledWorker":
         return lost(order)
-    return Record(order.id, "worker_differs", f"the cluster's worker cannot fly it: {type(error).__name__}: {error}")
+    return JobResult(order.id, "worker_differs", f"the cluster's worker cannot fly it: {type(error).__name__}: {error}")
 
 
-def fly_order(order: Order) -> Record:
+def fly_order(order: Job) -> JobResult:
     """On a dask worker: fly the order in the worker process of this thread."""
     for _ in range(ATTEMPTS):
         worker: Worker | None = getattr(_own, "worker", None)

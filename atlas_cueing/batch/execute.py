@@ -7,8 +7,8 @@ from tempfile import TemporaryDirectory
 from ..errors import InputError, OutputError
 from ..run.fly import RunResult, run_scenario
 from ..scenario import load_scenario
-from .job import Order
-from .job_result import Record
+from .job import Job
+from .job_result import JobResult
 from .run_id import run_id
 
 
@@ -20,8 +20,8 @@ def confine(memory: float) -> None:
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
-def fly_alone(order: Order, desk: Path) -> Record:
-    """Fly the order, write its log into the folder `desk`, and give the record. Raises only what ends the process."""
+def fly_alone(order: Job, workdir: Path) -> JobResult:
+    """Fly the order, write its log into the folder `workdir`, and give the record. Raises only what ends the process."""
     try:
         with TemporaryDirectory(prefix="atlas_cueing_") as folder:
             for name, content in order.files.items():
@@ -31,28 +31,28 @@ def fly_alone(order: Order, desk: Path) -> Record:
             scenario = load_scenario(Path(folder) / "scenario.toml", trust_models=order.trust_models)
             here = run_id(scenario)
             if here != order.id:
-                return Record(order.id, "worker_differs", f"this worker would fly {here}: its versions are not the driver's")
-            result = run_scenario(scenario, desk / f"{order.id}.mcap")
+                return JobResult(order.id, "worker_differs", f"this worker would fly {here}: its versions are not the driver's")
+            result = run_scenario(scenario, workdir / f"{order.id}.mcap")
     except MemoryError:
-        return Record(order.id, "out_of_memory", f"needs more than {order.limits.memory:g} GB", left_by(order, desk))
+        return JobResult(order.id, "out_of_memory", f"needs more than {order.limits.memory:g} GB", left_by(order, workdir))
     except OutputError as error:
-        return Record(order.id, "recording_failed", str(error))
+        return JobResult(order.id, "recording_failed", str(error))
     except InputError as error:  # the scenario was checked when it was planned, so it is the model that does not load
-        return Record(order.id, "vehicle_failed", str(error).replace(f"{folder}/", ""))
+        return JobResult(order.id, "vehicle_failed", str(error).replace(f"{folder}/", ""))
     except OSError as error:
-        return Record(order.id, "recording_failed", f"{type(error).__name__}: {error}")
+        return JobResult(order.id, "recording_failed", f"{type(error).__name__}: {error}")
     except Exception as error:  # noqa: BLE001 - one run's mishap is no other's
-        return Record(order.id, "failed", f"{type(error).__name__}: {error}", left_by(order, desk))
+        return JobResult(order.id, "failed", f"{type(error).__name__}: {error}", left_by(order, workdir))
     return _record(order, result)
 
 
-def _record(order: Order, result: RunResult) -> Record:
+def _record(order: Job, result: RunResult) -> JobResult:
     found = result.evaluation
     figures = (result.ticks, result.duration, result.wall, found.violations, found.metrics, found.limit_use)
-    return Record(order.id, result.result, result.reason, result.log.name, *figures)
+    return JobResult(order.id, result.result, result.reason, result.log.name, *figures)
 
 
-def left_by(order: Order, desk: Path) -> str:
-    """Name of the log that a run left on its desk, a .part or a complete one; empty when there is none."""
+def left_by(order: Job, workdir: Path) -> str:
+    """Name of the log that a run left on its workdir, a .part or a complete one; empty when there is none."""
     names = (f"{order.id}.mcap.part", f"{order.id}.mcap")
-    return next((name for name in names if (desk / name).is_file()), "")
+    return next((name for name in names if (workdir / name).is_file()), "")

@@ -4,14 +4,14 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from .job import Limits, Order
-from .job_result import KILLED, Record, kept
+from .job import Job, RunLimits
+from .job_result import KILLED, JobResult, kept
 from .plan import PlannedRun
 from .pool import Stop
-from .store import Results
+from .store import ResultStore
 
-Fly: TypeAlias = Callable[[Iterable[Order], Stop], Iterator[Record]]  # `fly_here`, or what `on_cluster` gives
-Tell: TypeAlias = Callable[[Record], None]
+Fly: TypeAlias = Callable[[Iterable[Job], Stop], Iterator[JobResult]]  # `fly_here`, or what `on_cluster` gives
+Tell: TypeAlias = Callable[[JobResult], None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,29 +19,29 @@ class Outcome:
     """A planned run and what came of it; `record` is None when it was not flown any more."""
 
     run: PlannedRun
-    record: Record | None
+    record: JobResult | None
 
 
-def missing(runs: Sequence[PlannedRun], results: Results, *, retry: bool = False) -> list[PlannedRun]:
+def missing(runs: Sequence[PlannedRun], results: ResultStore, *, retry: bool = False) -> list[PlannedRun]:
     """Runs without a final record there, the longest first; with `retry` also those that had to be killed."""
     return _todo(runs, _done(runs, results, retry))
 
 
-def _done(runs: Sequence[PlannedRun], results: Results, retry: bool) -> dict[str, Record]:
+def _done(runs: Sequence[PlannedRun], results: ResultStore, retry: bool) -> dict[str, JobResult]:
     found = kept([run.id for run in runs], results)
     return {name: record for name, record in found.items() if not (retry and record.result in KILLED)}
 
 
-def _todo(runs: Sequence[PlannedRun], done: Mapping[str, Record]) -> list[PlannedRun]:
+def _todo(runs: Sequence[PlannedRun], done: Mapping[str, JobResult]) -> list[PlannedRun]:
     # A long one that begins last keeps everybody waiting.
     return sorted((run for run in runs if run.id not in done), key=lambda run: -run.ticks)
 
 
 def fly_batch(
     runs: Sequence[PlannedRun],
-    results: Results,
+    results: ResultStore,
     fly: Fly,
-    limits: Limits,
+    limits: RunLimits,
     *,
     retry: bool = False,
     tell: Tell = lambda _: None,
@@ -54,7 +54,7 @@ def fly_batch(
     """
     with results.opened():
         records = _done(runs, results, retry)
-        for record in fly((Order.of(run, results.place, limits) for run in _todo(runs, records)), stop):
+        for record in fly((Job.of(run, results.place, limits) for run in _todo(runs, records)), stop):
             records[record.id] = record
             tell(record)
         return [Outcome(run, records.get(run.id)) for run in runs]

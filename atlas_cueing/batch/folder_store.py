@@ -18,7 +18,7 @@ _BYTES = 6  # of a run's hash, which is the number of its byte
 _PATIENCE = 0.2  # s from one look at a run that another worker holds to the next
 
 
-class FolderResults:
+class FolderStore:
     """`Results` in a folder, which workers elsewhere see at the same path. Runs write into it at once."""
 
     def __init__(self, folder: Path) -> None:
@@ -102,12 +102,12 @@ class FolderResults:
         except OSError as error:
             raise OutputError(f"{self._folder / name}: {error.strerror}") from error
 
-    def desk(self, scratch: Path) -> Path:  # noqa: ARG002 - it is not needed here
+    def workdir(self, scratch: Path) -> Path:  # noqa: ARG002 - it is not needed here
         """The folder itself: who writes there renames what is complete."""
         return self._folder
 
-    def deliver(self, desk: Path, names: Iterable[str]) -> None:
-        """Nothing: the desk is the folder."""
+    def deliver(self, workdir: Path, names: Iterable[str]) -> None:
+        """Nothing: the workdir is the folder."""
 
     def fetch(self, name: str, scratch: Path) -> Path:  # noqa: ARG002 - it is not needed here
         """The file itself."""

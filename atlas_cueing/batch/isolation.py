@@ -17,7 +17,7 @@ _PARENT_DEATH = 1  # PR_SET_PDEATHSIG of Linux's prctl
 
 
 @dataclass(frozen=True, slots=True)
-class Ended:
+class ChildExit:
     """What became of a child: what it told, its exit status (a signal's number below zero), what it printed last.
 
     late: it was killed at its time limit.
@@ -34,7 +34,7 @@ class Ended:
         return f"{how}{': ' if self.printed else ''}{self.printed}"
 
 
-def in_child(work: Callable[[], bytes], limit: float) -> Ended:
+def in_child(work: Callable[[], bytes], limit: float) -> ChildExit:
     """Fork, and give what `work` told there; it is killed after `limit` s of wall time, and dies with this process (on Linux).
 
     To be called in a process without threads, which a fork would catch in mid-step; `work` may start some. Raises EOFError
@@ -57,7 +57,7 @@ def in_child(work: Callable[[], bytes], limit: float) -> Ended:
             _, status = os.waitpid(child, 0)
         printed.seek(0)
         last = " ".join(printed.read().decode(errors="replace").split())[-_TAIL:]
-    return Ended(told or b"", os.waitstatus_to_exitcode(status), last, late=told is None)
+    return ChildExit(told or b"", os.waitstatus_to_exitcode(status), last, late=told is None)
 
 
 def linger(time: float) -> None:

@@ -12,7 +12,7 @@ LEAST_MEMORY_LIMIT = 0.5  # GB; the interpreter with its libraries alone has 0.3
 
 
 @dataclass(frozen=True, slots=True)
-class Limits:
+class RunLimits:
     """Of each run: `time` in s of wall time, `memory` in GB (10^9 bytes) of address space."""
 
     time: float = DEFAULT_TIME_LIMIT
@@ -20,17 +20,17 @@ class Limits:
 
 
 @dataclass(frozen=True, slots=True)
-class Order:
+class Job:
     """A run to fly: its id, where results go, the files of the scenario by name, its limits, and trust in its script."""
 
     id: str
     place: str
     files: dict[str, str]  # bytes as Latin-1, which loses none
-    limits: Limits
+    limits: RunLimits
     trust_models: bool = False
 
     @classmethod
-    def of(cls, run: PlannedRun, place: str, limits: Limits) -> Self:
+    def of(cls, run: PlannedRun, place: str, limits: RunLimits) -> Self:
         """The order for a planned run."""
         files = {name: data.decode("latin-1") for name, data in run.scenario.attachments().items()}
         return cls(run.id, place, files, limits, run.scenario.trust_models)
@@ -43,4 +43,4 @@ class Order:
     def from_line(cls, line: bytes) -> Self:
         """The order again."""
         table = json.loads(line)
-        return cls(table["id"], table["place"], table["files"], Limits(**table["limits"]), table["trust_models"])
+        return cls(table["id"], table["place"], table["files"], RunLimits(**table["limits"]), table["trust_models"])

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from ..atomic_file import write_whole
-from .store import Results
+from .store import ResultStore
 
 # The run itself ended so: the same again would end the same. Anything else (a full disk, a lost worker) is flown again.
 FINAL = ("ok", "vehicle_failed", "failed", "crashed", "timed_out", "out_of_memory")
@@ -16,7 +16,7 @@ KILLED = ("crashed", "timed_out", "out_of_memory")  # a stronger machine or a lo
 
 
 @dataclass(frozen=True, slots=True)
-class Record:
+class JobResult:
     """The `<run id>.json` beside a log, angles in rad and everything else in SI, units in the names of the figures.
 
     result: ok, vehicle_failed (did not load, or went wild), failed (an error nobody expected), crashed, timed_out,
@@ -65,12 +65,12 @@ class Record:
         return cls(**given, duration=duration, wall=wall)
 
 
-def keep(record: Record, desk: Path) -> None:
+def keep(record: JobResult, workdir: Path) -> None:
     """Write the record beside its log, complete or not at all."""
-    write_whole(desk / f"{record.id}.json", json.dumps(record.to_json(), indent=1, allow_nan=False))
+    write_whole(workdir / f"{record.id}.json", json.dumps(record.to_json(), indent=1, allow_nan=False))
 
 
-def kept(runs: Collection[str], results: Results) -> dict[str, Record]:
+def kept(runs: Collection[str], results: ResultStore) -> dict[str, JobResult]:
     """Records by id of those runs that need no flying again: whose record is there and sound, and whose log is there."""
     there = results.names()
     read = results.read(name for name in (f"{run}.json" for run in runs) if name in there)
@@ -78,16 +78,16 @@ def kept(runs: Collection[str], results: Results) -> dict[str, Record]:
     return {run: record for run, record in records.items() if record}
 
 
-def done_by_another(run: str, results: Results) -> Record | None:
+def done_by_another(run: str, results: ResultStore) -> JobResult | None:
     """The record of a run as `kept` finds it, without those that had to be killed: whoever orders them wants them again."""
     content = results.read([f"{run}.json"]).get(f"{run}.json", b"")
     record = _sound(run, content, results.has)
     return record if record and record.result not in KILLED else None
 
 
-def _sound(run: str, content: bytes, has: Callable[[str], bool]) -> Record | None:
+def _sound(run: str, content: bytes, has: Callable[[str], bool]) -> JobResult | None:
     try:
-        record = Record.from_json(json.loads(content))
+        record = JobResult.from_json(json.loads(content))
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return None
     return record if record.id == run and record.final and (not record.log or has(record.log)) else None

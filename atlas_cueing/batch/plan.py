@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, ScenarioError
-from ..run import build
+from ..run import build_pipeline
 from ..scenario import Scenario, Variant, load_variants, scenario_files
 from ..vehicles import own_scripts
 from .run_id import run_id
@@ -99,7 +99,7 @@ def _check(scenario: Scenario, step: float) -> None:
     """Raises InputError for what flies only live, or on no platform at this step."""
     _ = scenario.flight
     if not scenario.needs_whole_flight:
-        build(scenario, step)
+        build_pipeline(scenario, step)
 
 
 def _course(scenario: Scenario) -> tuple[float | None, float]:

@@ -10,8 +10,8 @@ from selectors import EVENT_READ, DefaultSelector
 from types import TracebackType
 from typing import Self
 
-from .job import Order
-from .job_result import Record
+from .job import Job
+from .job_result import JobResult
 
 Stop = Callable[[], bool]
 
@@ -35,7 +35,7 @@ class Worker:
         )
         assert self._process.stdin and self._process.stdout  # noqa: S101, PT018 - pipes, as asked for
         self._orders, self._records = self._process.stdin, self._process.stdout
-        self.order: Order | None = None
+        self.order: Job | None = None
         self.losses = 0  # times that the present order lost a worker
 
     def fileno(self) -> int:
@@ -47,17 +47,17 @@ class Worker:
         """The process."""
         return self._process.pid
 
-    def submit(self, order: Order, losses: int = 0) -> None:
+    def submit(self, order: Job, losses: int = 0) -> None:
         """Begin a run."""
         self.order, self.losses = order, losses
         with suppress(OSError):  # it is gone, and `receive` will say so
             self._orders.write(order.to_line())
             self._orders.flush()
 
-    def receive(self) -> Record | None:
+    def receive(self) -> JobResult | None:
         """Wait for the record of the run; None when the worker died."""
         line = self._records.readline()
-        return Record.from_json(json.loads(line)) if line.endswith(b"\n") else None
+        return JobResult.from_json(json.loads(line)) if line.endswith(b"\n") else None
 
     def close(self) -> None:
         """End the process, and the run under way with it."""
@@ -77,7 +77,7 @@ class Worker:
         self.close()
 
 
-def fly_here(orders: Iterable[Order], jobs: int, stop: Stop = lambda: False) -> Iterator[Record]:
+def fly_here(orders: Iterable[Job], jobs: int, stop: Stop = lambda: False) -> Iterator[JobResult]:
     """Fly the orders in `jobs` worker processes; records as they come. Once `stop` is true, runs under way are killed.
 
     A run that loses its worker is begun again with a new one, and given up as `worker_lost` when that is lost, too.
@@ -95,7 +95,7 @@ def fly_here(orders: Iterable[Order], jobs: int, stop: Stop = lambda: False) -> 
 class _Crew:
     """Workers, all of them busy, and the orders that are left."""
 
-    def __init__(self, orders: Iterable[Order]) -> None:
+    def __init__(self, orders: Iterable[Job]) -> None:
         self._todo = iter(orders)
         self._selector = DefaultSelector()
 
@@ -110,7 +110,7 @@ class _Crew:
         if order:
             self._begin(order, 0)
 
-    def records(self) -> Iterator[Record]:
+    def records(self) -> Iterator[JobResult]:
         """What is ready within a moment; whoever is done goes on with the next order."""
         for key, _ in self._selector.select(_PATIENCE):
             worker: Worker = key.data
@@ -127,7 +127,7 @@ class _Crew:
             self._drop(key.data)
         self._selector.close()
 
-    def _begin(self, order: Order, losses: int) -> None:
+    def _begin(self, order: Job, losses: int) -> None:
         worker = Worker()
         self._selector.register(worker, EVENT_READ, worker)
         worker.submit(order, losses)
@@ -139,7 +139,7 @@ class _Crew:
         else:
             self._drop(worker)
 
-    def _replace(self, worker: Worker) -> Iterator[Record]:
+    def _replace(self, worker: Worker) -> Iterator[JobResult]:
         """Begin the run of a dead worker again, or give it up."""
         self._drop(worker)
         if worker.order and worker.losses + 1 < ATTEMPTS:
@@ -153,6 +153,6 @@ class _Crew:
         worker.close()
 
 
-def lost(order: Order) -> Record:
+def lost(order: Job) -> JobResult:
     """The record of a run that lost its worker too often."""
-    return Record(order.id, "worker_lost", f"its worker process died {ATTEMPTS} times while flying it")
+    return JobResult(order.id, "worker_lost", f"its worker process died {ATTEMPTS} times while flying it")

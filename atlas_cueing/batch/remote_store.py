@@ -19,7 +19,7 @@ _NOT_ABSOLUTE = "a local URL has three slashes and an absolute path: file:///fol
 _OF_ONE_PROCESS = "memory"
 
 
-class RemoteResults:
+class RemoteStore:
     """`Results` at a URL. Runs write on the machine where they fly; what is finished is uploaded by another name, then moved.
 
     Two batches at work in one place do not see each other: they would fly some runs twice and do no other harm. fsspec is
@@ -107,13 +107,13 @@ class RemoteResults:
         with self._telling(), self._moved(name) as part:
             self._fs.pipe_file(part, content)
 
-    def desk(self, scratch: Path) -> Path:
+    def workdir(self, scratch: Path) -> Path:
         """A folder of this machine."""
         return scratch
 
-    def deliver(self, desk: Path, names: Iterable[str]) -> None:
-        """Upload files from the desk, by a child that may hang and may have threads. Raises EOFError as `in_child` does."""
-        ended = in_child(lambda: self._upload(desk, names), UPLOAD_LIMIT)
+    def deliver(self, workdir: Path, names: Iterable[str]) -> None:
+        """Upload files from the workdir, by a child that may hang and may have threads. Raises EOFError as `in_child` does."""
+        ended = in_child(lambda: self._upload(workdir, names), UPLOAD_LIMIT)
         if ended.late:
             raise OutputError(f"{self.where()}: upload not over after {UPLOAD_LIMIT:g} s")
         if ended.status != 0:
@@ -127,12 +127,12 @@ class RemoteResults:
             self._fs.get_file(self._at(name), str(scratch / name))
         return scratch / name
 
-    def _upload(self, desk: Path, names: Iterable[str]) -> bytes:
+    def _upload(self, workdir: Path, names: Iterable[str]) -> bytes:
         """In the child: upload, and tell what went wrong."""
         try:
             for name in names:
                 with self._telling(), self._moved(name) as part:
-                    self._fs.put_file(str(desk / name), part)
+                    self._fs.put_file(str(workdir / name), part)
         except OutputError as error:
             return str(error).encode()
         return b""

@@ -7,16 +7,16 @@ from typing import Protocol
 
 from ..errors import OutputError
 from ..run.output import PAGE, TABLE
-from .folder_store import FolderResults
-from .remote_store import RemoteResults
+from .folder_store import FolderStore
+from .remote_store import RemoteStore
 
 SUMMARY, INDEX = "summary.csv", "index.html"  # the table and the page of all runs
 
 
-class Results(Protocol):
+class ResultStore(Protocol):
     """Files by name, each complete or not there at all.
 
-    A run writes into a `desk` on the machine where it flies, and what it leaves there is delivered. Everything but `desk`
+    A run writes into a `workdir` on the machine where it flies, and what it leaves there is delivered. Everything but `workdir`
     raises OSError or OutputError when the place fails.
     """
 
@@ -62,12 +62,12 @@ class Results(Protocol):
         """Write a file, or replace it."""
         ...
 
-    def desk(self, scratch: Path) -> Path:
+    def workdir(self, scratch: Path) -> Path:
         """The folder that a run writes into: `scratch`, unless it may write here at once."""
         ...
 
-    def deliver(self, desk: Path, names: Iterable[str]) -> None:
-        """Bring files from the desk, one after the other."""
+    def deliver(self, workdir: Path, names: Iterable[str]) -> None:
+        """Bring files from the workdir, one after the other."""
         ...
 
     def fetch(self, name: str, scratch: Path) -> Path:
@@ -75,7 +75,7 @@ class Results(Protocol):
         ...
 
 
-def check_results(results: Results) -> None:
+def check_results(results: ResultStore) -> None:
     """Refuse a place whose table or page would be replaced, and is not of an earlier batch.
 
     Raises OutputError for that, and InputError when results can never go there. Makes nothing.
@@ -91,6 +91,6 @@ def check_results(results: Results) -> None:
             )
 
 
-def results_at(place: str) -> Results:
+def open_store(place: str) -> ResultStore:
     """The results at a URL, or in a folder. Raises InputError for a URL that cannot be one."""
-    return RemoteResults(place) if "://" in place else FolderResults(Path(place))
+    return RemoteStore(place) if "://" in place else FolderStore(Path(place))

@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ..evaluation import Flight, metrics
+from ..evaluation import RunColumns, metrics
 from .fly_batch import Outcome
 
 Array = NDArray[np.float64]
@@ -34,7 +34,7 @@ class _Nothing:
 
 def metric_names() -> tuple[str, ...]:
     """What every run that flew has, whatever it flew."""
-    return tuple(dict.fromkeys((*metrics(Flight.of(_Nothing())), *_OF_A_RUN)))
+    return tuple(dict.fromkeys((*metrics(RunColumns.of(_Nothing())), *_OF_A_RUN)))
 
 
 def rows(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:

@@ -18,10 +18,10 @@ import numpy.fft  # noqa: F401 - numpy loads it when it is first used, which wou
 
 from ..errors import OutputError
 from .execute import confine, fly_alone, left_by
-from .isolation import Ended, in_child
-from .job import Order
-from .job_result import Record, done_by_another, keep
-from .store import Results, results_at
+from .isolation import ChildExit, in_child
+from .job import Job
+from .job_result import JobResult, done_by_another, keep
+from .store import ResultStore, open_store
 
 
 def main() -> None:
@@ -32,50 +32,50 @@ def main() -> None:
     gc.freeze()  # so that children do not copy what they never change
     with suppress(EOFError):
         while line := sys.stdin.buffer.readline():
-            record = isolated(Order.from_line(line))
+            record = isolated(Job.from_line(line))
             replies.write(json.dumps(record.to_json()).encode() + b"\n")
             replies.flush()
 
 
-def isolated(order: Order) -> Record:
+def isolated(order: Job) -> JobResult:
     """Fly the order in a child, and deliver its log and record; one that died gets a record that says how.
 
     A run that was done meanwhile is not flown again: a cluster may order it twice when it loses a worker or the driver.
     Raises EOFError when stdin ends meanwhile.
     """
-    results = results_at(order.place)
+    results = open_store(order.place)
     try:
         # What a killed child leaves in `scratch` goes with it.
         with results.claimed(order.id), tempfile.TemporaryDirectory(prefix="atlas_cueing_") as scratch:
             return _flown(order, results, Path(scratch))
     except (OSError, OutputError) as error:
-        return Record(order.id, "recording_failed", f"{order.id}: {error}")
+        return JobResult(order.id, "recording_failed", f"{order.id}: {error}")
 
 
-def _flown(order: Order, results: Results, scratch: Path) -> Record:
-    desk = results.desk(scratch)
+def _flown(order: Job, results: ResultStore, scratch: Path) -> JobResult:
+    workdir = results.workdir(scratch)
 
     def work() -> bytes:
         """The flight, as the child tells it."""
         tempfile.tempdir = str(scratch)
         confine(order.limits.memory)
         done = done_by_another(order.id, results)
-        return json.dumps([done is None, (done or fly_alone(order, desk)).to_json()]).encode()
+        return json.dumps([done is None, (done or fly_alone(order, workdir)).to_json()]).encode()
 
     begun = monotonic()
     ended = in_child(work, order.limits.time)
     if ended.told and not ended.late:
         new, told = json.loads(ended.told)
-        record = Record.from_json(told)
+        record = JobResult.from_json(told)
     else:
         result, reason = _cause(order, ended)
-        new, record = True, Record(order.id, result, reason, left_by(order, desk), wall=monotonic() - begun)
+        new, record = True, JobResult(order.id, result, reason, left_by(order, workdir), wall=monotonic() - begun)
     if new and record.final:
-        _deliver(record, desk, results)
+        _deliver(record, workdir, results)
     return record
 
 
-def _cause(order: Order, ended: Ended) -> tuple[str, str]:
+def _cause(order: Job, ended: ChildExit) -> tuple[str, str]:
     """Result and reason of a child that ended without a word."""
     if ended.late:
         return "timed_out", f"not over after {order.limits.time:g} s"
@@ -84,10 +84,10 @@ def _cause(order: Order, ended: Ended) -> tuple[str, str]:
     return "crashed", ended.how()
 
 
-def _deliver(record: Record, desk: Path, results: Results) -> None:
+def _deliver(record: JobResult, workdir: Path, results: ResultStore) -> None:
     """Log and record to where they belong. Raises OSError or OutputError."""
-    keep(record, desk)
-    results.deliver(desk, [name for name in (record.log, f"{record.id}.json") if name])  # the record says that all is there
+    keep(record, workdir)
+    results.deliver(workdir, [name for name in (record.log, f"{record.id}.json") if name])  # the record says that all is there
 
 
 if __name__ == "__main__":

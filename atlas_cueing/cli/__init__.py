@@ -19,21 +19,21 @@ import typer
 from ..errors import AtlasError, InputError
 from ..printable import printable
 from .batch import EPILOG as BATCH_EPILOG
-from .batch import batch
+from .batch import batch_command
 from .compare import EPILOG as COMPARE_EPILOG
-from .compare import compare
+from .compare import compare_command
 from .live import EPILOG as LIVE_EPILOG
-from .live import live
+from .live import live_command
 from .platform import EPILOG as PLATFORM_EPILOG
-from .platform import platform
+from .platform import platform_command
 from .recover import EPILOG as RECOVER_EPILOG
-from .recover import recover
+from .recover import recover_command
 from .recue import EPILOG as RECUE_EPILOG
-from .recue import recue
+from .recue import recue_command
 from .review import EPILOG as REVIEW_EPILOG
-from .review import review
+from .review import review_command
 from .run import EPILOG as RUN_EPILOG
-from .run import run
+from .run import run_command
 from .streams import safe_streams
 
 _OF_THE_SYSTEM = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EMFILE, errno.ENFILE)  # as in a full /tmp
@@ -49,14 +49,14 @@ app = typer.Typer(
 # Without a handler Python would print JSBSim's warnings to stderr among ours.
 logging.getLogger("atlas_cueing").addHandler(logging.NullHandler())
 
-app.command(epilog=RUN_EPILOG)(run)
-app.command(epilog=BATCH_EPILOG)(batch)
-app.command(epilog=LIVE_EPILOG)(live)
-app.command(epilog=REVIEW_EPILOG)(review)
-app.command(epilog=COMPARE_EPILOG)(compare)
-app.command(epilog=RECUE_EPILOG)(recue)
-app.command(epilog=RECOVER_EPILOG)(recover)
-app.command(epilog=PLATFORM_EPILOG)(platform)
+app.command("run", epilog=RUN_EPILOG)(run_command)
+app.command("batch", epilog=BATCH_EPILOG)(batch_command)
+app.command("live", epilog=LIVE_EPILOG)(live_command)
+app.command("review", epilog=REVIEW_EPILOG)(review_command)
+app.command("compare", epilog=COMPARE_EPILOG)(compare_command)
+app.command("recue", epilog=RECUE_EPILOG)(recue_command)
+app.command("recover", epilog=RECOVER_EPILOG)(recover_command)
+app.command("platform", epilog=PLATFORM_EPILOG)(platform_command)
 
 
 def _show_version(asked: bool) -> None:

@@ -17,7 +17,7 @@ from .batch_progress import batch_progress, spoken
 from .text import TRUST_MODELS, say
 
 if TYPE_CHECKING:
-    from ..batch import Fly, Outcome, PlannedRun, Results
+    from ..batch import Fly, Outcome, PlannedRun, ResultStore
 
 EPILOG = """
 Examples:
@@ -64,7 +64,7 @@ _SHOWN_NAMES = 5  # metrics that a wrong --sort is answered with
 _SHOWN_FINDINGS = 20  # lines on stderr; the table has all
 
 
-def batch(
+def batch_command(
     paths: Annotated[list[Path], typer.Argument(help="Scenario files, sweeps, and folders of them.", metavar="PATH...")],
     output: Annotated[
         str,
@@ -94,21 +94,21 @@ def batch(
     The folder gets RUN.mcap and RUN.json for each run, summary.csv and index.html. Exit status 0: all flown, every limit kept.
     1: a run has a finding, or the batch was stopped. 2: bad input, nothing was written.
     """
-    from ..batch import Limits, check_results, fly_batch, missing, plan, results_at
-    from ..run import Interrupt
+    from ..batch import RunLimits, check_results, fly_batch, missing, open_store, plan
+    from ..run import StopRequest
 
     _check_metric(sort)
     if pages:
         _check_plotly()
     runs = plan(paths, settings or (), trust_models=trust_models, checking=_tell)
-    results = results_at(output)
+    results = open_store(output)
     check_results(results)
     todo = missing(runs, results, retry=retry)
     say(_plan_text(runs, todo))
     if dry_run:
         return
-    with _flyer(cluster, jobs or len(os.sched_getaffinity(0))) as fly, Interrupt() as stop, batch_progress(todo) as tell:
-        limits = Limits(time_limit, memory_limit)
+    with _flyer(cluster, jobs or len(os.sched_getaffinity(0))) as fly, StopRequest() as stop, batch_progress(todo) as tell:
+        limits = RunLimits(time_limit, memory_limit)
         outcomes = fly_batch(runs, results, fly, limits, retry=retry, tell=tell, stop=lambda: stop.requested)
     if pages and not stop.requested:
         _write_pages(outcomes, results)
@@ -140,7 +140,7 @@ def _plan_text(runs: "Sequence[PlannedRun]", todo: "Sequence[PlannedRun]") -> st
     return f"{_runs(len(runs))}, {len(runs) - len(todo)} of them done already; to fly: {spoken(known)} of flight at most{more}"
 
 
-def _write(outcomes: "Sequence[Outcome]", results: "Results", sort: str) -> list[Mapping[str, Any]]:
+def _write(outcomes: "Sequence[Outcome]", results: "ResultStore", sort: str) -> list[Mapping[str, Any]]:
     """Table and overview, also of a batch that was stopped; gives the table."""
     from ..batch import csv_of, ordered, overview, rows
     from ..batch.store import INDEX, SUMMARY
@@ -153,9 +153,9 @@ def _write(outcomes: "Sequence[Outcome]", results: "Results", sort: str) -> list
     return table
 
 
-def _write_pages(outcomes: "Sequence[Outcome]", results: "Results") -> None:
+def _write_pages(outcomes: "Sequence[Outcome]", results: "ResultStore") -> None:
     """The review of each complete log that has none yet, beside it."""
-    from ..review import review
+    from ..review import review_log
     from ..review.report import write_page
 
     there = results.names()
@@ -165,7 +165,7 @@ def _write_pages(outcomes: "Sequence[Outcome]", results: "Results") -> None:
         with TemporaryDirectory(prefix="atlas_cueing_") as scratch:
             page = Path(scratch) / "page.html"
             try:
-                write_page(review(results.fetch(record.log, Path(scratch))), page)
+                write_page(review_log(results.fetch(record.log, Path(scratch))), page)
             except LogError as error:
                 say(f"{record.id}: no review: {error}")
             else:
@@ -204,14 +204,14 @@ def _settings(outcomes: "Sequence[Outcome]") -> list[str]:
     return list(dict.fromkeys(key for outcome in outcomes for key in outcome.run.settings))
 
 
-def _json(table: Sequence[Mapping[str, Any]], results: "Results") -> str:
+def _json(table: Sequence[Mapping[str, Any]], results: "ResultStore") -> str:
     from .text import one_json
 
     counts = Counter(row["result"] for row in table)
     return one_json({"folder": results.where(), "runs": len(table), "results": dict(counts), "table": table})
 
 
-def _text(table: Sequence[Mapping[str, Any]], settings: Sequence[str], sort: str, top: int, results: "Results") -> str:
+def _text(table: Sequence[Mapping[str, Any]], settings: Sequence[str], sort: str, top: int, results: "ResultStore") -> str:
     """The first rows, counts, and where everything is."""
     from ..review.figures import Figure
     from .text import aligned

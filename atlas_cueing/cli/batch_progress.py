@@ -10,7 +10,7 @@ from .streams import terminal_of
 from .text import say
 
 if TYPE_CHECKING:
-    from ..batch import PlannedRun, Record
+    from ..batch import JobResult, PlannedRun
 
 _LINE_EVERY = 15.0  # s between two plain lines
 
@@ -27,7 +27,7 @@ class Count:
         self._worked = 0  # ticks that were flown: many a run ends, or fails, long before its planned end
         self._begun = perf_counter()
 
-    def add(self, record: "Record") -> None:
+    def add(self, record: "JobResult") -> None:
         """One more run."""
         self.done += 1
         self.failed += not record.clean
@@ -60,13 +60,13 @@ def spoken(time: float) -> str:
 
 
 @contextmanager
-def batch_progress(runs: "Sequence[PlannedRun]") -> "Iterator[Callable[[Record], None]]":
+def batch_progress(runs: "Sequence[PlannedRun]") -> "Iterator[Callable[[JobResult], None]]":
     """A function to call with each record as it comes."""
     count = Count(runs)
     show = _bar if sys.stderr.isatty() else _lines
     with show(count) as update:
 
-        def tell(record: "Record") -> None:
+        def tell(record: "JobResult") -> None:
             """Count one more run, and show it."""
             count.add(record)
             update()

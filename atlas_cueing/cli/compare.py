@@ -22,7 +22,7 @@ Examples:
 _LONGEST_NAME = 16  # characters of a column's head
 
 
-def compare(
+def compare_command(
     logs: Annotated[list[Path], typer.Argument(help="Two or more logs (MCAP) of one flight.", metavar="LOG")],
     html: Annotated[
         Path | None, typer.Option("--html", metavar="FILE", help="Write overlaid plots into one file for a browser.")
@@ -37,7 +37,7 @@ def compare(
 
     Exit status 0: all are clean. 1: one has a finding or cannot be read. 2: bad usage, or logs of different flights.
     """
-    from ..review import compare as compared
+    from ..review import compare_logs as compared
     from .open_page import check_pages
     from .text import one_json, say
 

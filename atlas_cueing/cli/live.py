@@ -58,7 +58,7 @@ Priority: TypeAlias = Annotated[
 ]
 
 
-def live(
+def live_command(
     scenario: ScenarioFile,
     output: NewLog = None,
     rate: Rate = 500.0,

@@ -13,7 +13,7 @@ Examples:
 """
 
 
-def platform(
+def platform_command(
     name_or_file: Annotated[
         str, typer.Argument(help="A platform of the package, or a platform file (TOML).", metavar="PRESET_OR_FILE")
     ],

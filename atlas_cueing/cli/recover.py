@@ -16,7 +16,7 @@ Examples:
 """
 
 
-def recover(
+def recover_command(
     broken: Annotated[Path, typer.Argument(help="A cut or damaged log, or the .part of a killed run.", metavar="BROKEN")],
     output: Annotated[Path, typer.Option("-o", "--output", metavar="FIXED", help="Log to write.")],
     as_json: AsJson = False,
@@ -28,7 +28,7 @@ def recover(
 
     Exit status 0: written. 1: nothing in it can be recovered. 2: bad usage, nothing was written.
     """
-    from ..review import recover as recovered
+    from ..review import recover_log as recovered
     from ..run import check_output
     from .text import aligned, one_json
 

@@ -16,7 +16,7 @@ Examples:
 """
 
 
-def recue(
+def recue_command(
     log: Annotated[Path, typer.Argument(help="Log (MCAP) whose flight is used.", metavar="LOG")],
     output: Annotated[Path, typer.Option("-o", "--output", metavar="NEW", help="Log to write.")],
     settings: Annotated[
@@ -33,8 +33,8 @@ def recue(
 
     Exit status 0: written and clean. 1: the new log has a finding, or the old one is damaged. 2: bad input, nothing written.
     """
-    from ..review import recue as recued
-    from ..review import review as judged
+    from ..review import cue_again as recued
+    from ..review import review_log as judged
     from ..run import check_output
     from .review import review_summary
     from .text import one_json

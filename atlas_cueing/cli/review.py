@@ -26,7 +26,7 @@ Examples:
 _SHOWN = 20  # findings printed; --json has all
 
 
-def review(
+def review_command(
     log: Annotated[Path, typer.Argument(help="Log (MCAP) of atlas-cueing.", metavar="LOG")],
     html: Annotated[
         Path | None, typer.Option("--html", metavar="FILE", help="Write plots of everything into one file for a browser.")
@@ -46,7 +46,7 @@ def review(
     Exit status 0: nothing was found. 1: a finding, or the log is damaged or not one of ours. 2: bad usage.
     """
     from ..review import advice
-    from ..review import review as judged
+    from ..review import review_log as judged
     from .open_page import check_pages
     from .text import one_json
 

@@ -17,7 +17,7 @@ Examples:
 """
 
 
-def run(
+def run_command(
     scenario: ScenarioFile,
     output: NewLog = None,
     settings: Settings = None,

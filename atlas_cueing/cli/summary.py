@@ -115,7 +115,7 @@ def _limit_rows(use: Mapping[str, float]) -> list[tuple[str, str]]:
 def kinematics(platform: "Platform") -> dict[str, Any]:
     """Kinematics of a platform by name, unit in the name; `sphere_from_wheels` is None for a singular geometry."""
     geometry = platform.geometry()
-    room = headroom(geometry, platform.wheel_speed_limits())
+    room = headroom(geometry, platform.wheel_limit_values())
     return {
         "name": platform.name,
         "induced_rows": geometry.induced_rows,

@@ -4,7 +4,7 @@ A rotation method turns the vehicle into an orientation of the sphere; the stage
 Nothing is ever washed out to neutral.
 """
 
-from .cueing import Cueing, Cues, RotationMethod, build
+from .cueing import Cueing, CueSource, RotationMethod, build_cueing
 from .parameters import (
     CLASSICAL_STAGE,
     AttitudeParameters,
@@ -23,8 +23,8 @@ __all__ = [
     "AttitudeParameters",
     "BlendParameters",
     "ClassicalParameters",
+    "CueSource",
     "Cueing",
-    "Cues",
     "ForceParameters",
     "HorizonParameters",
     "MethodParameters",
@@ -32,5 +32,5 @@ __all__ = [
     "RotationMethod",
     "SlowTurnParameters",
     "StageParameters",
-    "build",
+    "build_cueing",
 ]

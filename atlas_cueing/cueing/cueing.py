@@ -24,7 +24,7 @@ RotationMethod: TypeAlias = AttitudeRotation | BlendRotation | ClassicalRotation
 """How the sphere follows the vehicle: `step` gives orientation q_WS and rate w_WS_W (rad/s) for a vehicle state."""
 
 
-class Cues(Protocol):
+class CueSource(Protocol):
     """Whatever gives a flight's cues in order: `Cueing` as it goes along, or a plan made for the whole flight."""
 
     def step(self, vehicle: VehicleState) -> Cue:
@@ -48,7 +48,7 @@ class Cueing:
         return Cue(vehicle.time, q_WS, w_WS_W, p_WS_W, v_WS_W, a_WS_W)
 
 
-def build(method: MethodParameters, stage: StageParameters, limits: StageLimits, head_S: Vec3, dt: float) -> Cueing:
+def build_cueing(method: MethodParameters, stage: StageParameters, limits: StageLimits, head_S: Vec3, dt: float) -> Cueing:
     """Cueing by the method whose parameters are given; limits and head_S (m, S) of the platform, dt in s."""
     rotation: RotationMethod
     match method:

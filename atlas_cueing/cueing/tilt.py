@@ -47,7 +47,7 @@ def misalignment(q_WS: Quat, f_S: Vec3, hold: float) -> Vec3:
     """
     up_S = up_in_body(q_WS)
     force = norm(f_S)
-    weight = presence(force, hold)
+    weight = fade_in(force, hold)
     axis, along = cross(f_S, up_S), dot(f_S, up_S)
     size = norm(axis)
     if weight == 0.0 or size <= 1e-9 * force:
@@ -62,7 +62,7 @@ def _across(up_S: Vec3) -> Vec3:
     return scale(1.0 / norm(across), across)
 
 
-def presence(force: float, hold: float) -> float:
+def fade_in(force: float, hold: float) -> float:
     """0 up to a force of `hold`, 1 from twice that on, and a cubic with level ends between."""
     x = min(max(force / hold - 1.0, 0.0), 1.0)
     return x * x * (3.0 - 2.0 * x)
@@ -91,7 +91,7 @@ class ForceDirection:
         """Rate (rad/s, S) that carries W's up along with f, and the cabin about it with the vehicle's rate w_S."""
         f_S, rate = self._force.x, self._force.v
         force = norm(f_S)
-        there = presence(force, self._hold)
+        there = fade_in(force, self._hold)
         along = scale(1.0 / max(force, self._hold), f_S)
         across = cross(scale(1.0 / max(force, self._hold), rate), along)
         return add(scale(there, add(across, scale(dot(w_S, along), along))), scale(1.0 - there, w_S))

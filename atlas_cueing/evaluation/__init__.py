@@ -2,24 +2,24 @@
 
 from .consistency import Consistency, consistency, reintegrate
 from .deviation import vehicle_attitude
-from .engaged_segment import ridden
+from .engaged_segment import engaged_segment
 from .limit_use import LimitUse, limit_use, violations
 from .metrics import Metrics, metrics
-from .run_columns import BLOCK_TICKS, Columns, Flight, gathered
+from .run_columns import BLOCK_TICKS, Columns, RunColumns, gathered
 
 __all__ = [
     "BLOCK_TICKS",
     "Columns",
     "Consistency",
-    "Flight",
     "LimitUse",
     "Metrics",
+    "RunColumns",
     "consistency",
+    "engaged_segment",
     "gathered",
     "limit_use",
     "metrics",
     "reintegrate",
-    "ridden",
     "vehicle_attitude",
     "violations",
 ]

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..rotations import geodesic
-from .run_columns import Array, Flight, Tail, gathered
+from .run_columns import Array, RunColumns, Tail, gathered
 from .statistics import Magnitudes, Peaks, distance, length
 
 _LARGEST = {
@@ -18,7 +18,7 @@ _LARGEST = {
 }  # figure to column
 
 
-class Effort:
+class Actuation:
     """Smoothing and actuators, block by block."""
 
     def __init__(self) -> None:
@@ -29,7 +29,7 @@ class Effort:
         self._tail = Tail(1)
         self._peaks = {name: Peaks() for name in _LARGEST}
 
-    def add(self, block: Flight) -> None:
+    def add(self, block: RunColumns) -> None:
         """Take in the ticks that follow."""
         self._angle.add(geodesic(block.cue_q_WS, block.motion_q_WS))
         self._distance.add(distance(block.cue_p_W, block.motion_p_W))
@@ -57,7 +57,7 @@ class Effort:
         }
 
 
-def effort(flight: Flight) -> dict[str, float]:
+def effort(flight: RunColumns) -> dict[str, float]:
     """Figures of smoothing and of the actuators.
 
     - cue_lag: motion against cue;
@@ -67,7 +67,7 @@ def effort(flight: Flight) -> dict[str, float]:
       backwards; the added stage acceleration is in the log;
     - wheel_..., stage_...: largest magnitudes.
     """
-    return gathered(Effort(), flight)
+    return gathered(Actuation(), flight)
 
 
 class _Unlimited:

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..rotations import accumulated, exp, geodesic
-from .run_columns import Array, Flight, Tail, gathered
+from .run_columns import Array, RunColumns, Tail, gathered
 from .statistics import Peaks
 
 
@@ -18,7 +18,7 @@ class Consistency:
         self._speed, self._acceleration = Peaks(), Peaks()
         self._final, self._largest = 0.0, 0.0
 
-    def add(self, block: Flight) -> None:
+    def add(self, block: RunColumns) -> None:
         """Take in the ticks that follow."""
         self._speed.add(block.wheel_speed - block.motion_w_W @ self._from_sphere)
         self._acceleration.add(block.wheel_acceleration - block.motion_alpha_W @ self._from_sphere)
@@ -35,7 +35,7 @@ class Consistency:
         }
 
 
-def consistency(flight: Flight, wheels_from_sphere: ArrayLike, sphere_from_wheels: ArrayLike) -> dict[str, float]:
+def consistency(flight: RunColumns, wheels_from_sphere: ArrayLike, sphere_from_wheels: ArrayLike) -> dict[str, float]:
     """How well the logged quantities agree with each other.
 
     - wheel_speed_mismatch_max_rad_s, wheel_acceleration_mismatch_max_rad_s2: logged against J^-1 times the logged motion;
@@ -46,7 +46,7 @@ def consistency(flight: Flight, wheels_from_sphere: ArrayLike, sphere_from_wheel
     return gathered(Consistency(wheels_from_sphere, sphere_from_wheels), flight)
 
 
-def reintegrate(flight: Flight, sphere_from_wheels: ArrayLike) -> Array:
+def reintegrate(flight: RunColumns, sphere_from_wheels: ArrayLike) -> Array:
     """Orientations (n, 4) from the first one and the wheels alone, q' = 1/2 Omega o q with Omega = J omega (Eq. 18, 20).
 
     The turn over a tick is the integral of the cubic through the logged speeds and accelerations at its ends, plus the
@@ -64,7 +64,7 @@ class _Course:
         self._tail = Tail(1)
         self._last: Array | None = None
 
-    def orientations(self, block: Flight) -> Array:
+    def orientations(self, block: RunColumns) -> Array:
         """At the ticks that follow, (n, 4)."""
         time, speed, acceleration = self._tail.joined(block.time, block.wheel_speed, block.wheel_acceleration)
         turns = _turns(np.diff(time), speed @ self._to_sphere, acceleration @ self._to_sphere)

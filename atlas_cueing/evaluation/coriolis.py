@@ -4,7 +4,7 @@ from math import tau
 
 import numpy as np
 
-from .run_columns import Array, Flight, Tail, gathered
+from .run_columns import Array, RunColumns, Tail, gathered
 from .statistics import Spread
 
 NOD = 1.0
@@ -14,7 +14,7 @@ NOD = 1.0
 _AXES = ("roll", "pitch", "yaw")
 
 
-class Turning:
+class Coriolis:
     """Turning, block by block."""
 
     def __init__(self) -> None:
@@ -23,7 +23,7 @@ class Turning:
         self._turned: Array = np.zeros(3)  # rad
         self._tail = Tail(1)
 
-    def add(self, block: Flight) -> None:
+    def add(self, block: RunColumns) -> None:
         """Take in the ticks that follow."""
         self._rider.add(_coriolis(block.felt_w))
         self._pilot.add(_coriolis(block.vehicle_w_B))
@@ -38,7 +38,7 @@ class Turning:
         return found | {f"turns_{name}": float(turned) / tau for name, turned in zip(_AXES, self._turned, strict=True)}
 
 
-def turning(flight: Flight) -> dict[str, float]:
+def turning(flight: RunColumns) -> dict[str, float]:
     """Coriolis exposure of rider and pilot, and the cabin's net turns.
 
     - coriolis_rms_rad_s2, coriolis_p95_rad_s2: magnitude of the angular acceleration w x n that the canals of a rider get, on
@@ -48,7 +48,7 @@ def turning(flight: Flight) -> dict[str, float]:
     - vehicle_coriolis_...: the same for a pilot in the vehicle: what the mission asks for anyway;
     - turns_roll, turns_pitch, turns_yaw: net turns of the cabin about its own axes, forward-right-down, with sign.
     """
-    return gathered(Turning(), flight)
+    return gathered(Coriolis(), flight)
 
 
 def _coriolis(w: Array) -> Array:

@@ -5,12 +5,12 @@ from math import hypot
 
 from ..cueing import PreviewParameters
 from .deviation import deviation
-from .run_columns import Flight
+from .run_columns import RunColumns
 
 _UNITS = PreviewParameters()
 
 
-def cost(flight: Flight) -> dict[str, float]:
+def cost(flight: RunColumns) -> dict[str, float]:
     """The root mean square, over the flight, of the errors of specific force and angular rate at the rider's head.
 
     - cost: sqrt( mean |felt - vehicle specific force|^2 / force_unit^2 + mean |felt - vehicle rate|^2 / rate_unit^2 );

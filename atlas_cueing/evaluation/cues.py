@@ -23,7 +23,7 @@ GAIN_BAND = (0.8, 1.25)
 used by Schroeder, NASA/TP-1999-208766; the upper end is its reciprocal."""
 
 
-class Cues:
+class CueCounter:
     """Cues of one axis, counted block by block."""
 
     def __init__(self, threshold: float) -> None:
@@ -59,6 +59,6 @@ def cue_shares(vehicle: Array, platform: Array, threshold: float) -> dict[str, f
     - false: the platform's is there, the vehicle's is not, or has the opposite sign;
     - scaled: both are there, with one sign, and platform over vehicle is outside `GAIN_BAND`.
     """
-    cues = Cues(threshold)
+    cues = CueCounter(threshold)
     cues.add(vehicle, platform)
     return cues.shares()

@@ -5,7 +5,7 @@ import numpy as np
 from ..rotation import conjugate, from_euler, to_euler
 from ..rotations import geodesic, multiply
 from ..signals import STANDARD_GRAVITY, direction_error
-from .run_columns import Array, Flight, gathered
+from .run_columns import Array, RunColumns, gathered
 from .statistics import Magnitudes, Spread, distance, length
 
 DIRECTION_FORCE = 0.1 * STANDARD_GRAVITY
@@ -25,7 +25,7 @@ class Deviation:
         self._extra = Magnitudes()
         self._unlimited = bytearray()  # 1 or 0 a tick: whether the rate error there is extra rate
 
-    def add(self, block: Flight) -> None:
+    def add(self, block: RunColumns) -> None:
         """Take in the ticks that follow."""
         if self._heading is None:
             self._heading = _heading(block.vehicle_q_NB[0])
@@ -56,7 +56,7 @@ class Deviation:
         }
 
 
-def deviation(flight: Flight) -> dict[str, float]:
+def deviation(flight: RunColumns) -> dict[str, float]:
     """Rms, 95 % quantile and maximum over the flight of what the rider has against what the pilot has.
 
     - force_..._m_s2: length of the difference of the specific forces at the head, felt - vehicle, cabin FRD;
@@ -68,7 +68,7 @@ def deviation(flight: Flight) -> dict[str, float]:
     return gathered(Deviation(), flight)
 
 
-def extra_rate(flight: Flight) -> dict[str, float]:
+def extra_rate(flight: RunColumns) -> dict[str, float]:
     """Cabin rate beyond the vehicle's, |felt - vehicle|, over the ticks at which the wheels are not limited.
 
     extra_rate_rms_rad_s, extra_rate_p99_rad_s, extra_rate_max_rad_s: what the cueing turns the rider on its own account, with
@@ -79,7 +79,7 @@ def extra_rate(flight: Flight) -> dict[str, float]:
     return all_ticks.extra_rate()
 
 
-def vehicle_attitude(flight: Flight) -> Array:
+def vehicle_attitude(flight: RunColumns) -> Array:
     """The vehicle's attitude as an orientation of the cabin, q_WS (n, 4), with its heading at the start taken out."""
     q_NB = flight.vehicle_q_NB
     return _cabin(q_NB, _heading(q_NB[0])) if len(q_NB) else np.empty((0, 4))

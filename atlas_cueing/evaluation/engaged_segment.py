@@ -5,7 +5,7 @@ from typing import Protocol
 
 import numpy as np
 
-from .run_columns import Flight
+from .run_columns import RunColumns
 
 RUNNING = "running"
 
@@ -22,7 +22,7 @@ class Change(Protocol):
         """What it changed to."""
 
 
-def ridden(flight: Flight, changes: Sequence[Change]) -> Flight:
+def engaged_segment(flight: RunColumns, changes: Sequence[Change]) -> RunColumns:
     """The longest stretch of a flight in state `running`, or none of it.
 
     A change of state at t counts from the tick at t on, which is the first of the new state.

@@ -7,8 +7,8 @@ import numpy as np
 from ..rotation import ZERO, Vec3
 from ..signals import STANDARD_GRAVITY
 from .correlation import Correlation
-from .cues import FORCE_THRESHOLD, RATE_THRESHOLD, Cues
-from .run_columns import Array, Flight, gathered
+from .cues import FORCE_THRESHOLD, RATE_THRESHOLD, CueCounter
+from .run_columns import Array, RunColumns, gathered
 from .statistics import Spread
 from .vestibular import CANALS, OTOLITHS, Organ, Sensing
 
@@ -33,14 +33,14 @@ _FORCE = _Quantity("force", "m_s2", "vehicle_f_B", "felt_f", (0.0, 0.0, -STANDAR
 _RATE = _Quantity("rate", "rad_s", "vehicle_w_B", "felt_w", ZERO, RATE_THRESHOLD, CANALS)
 
 
-class Likeness:
+class Fidelity:
     """Likeness of pilot's and rider's motion, block by block."""
 
     def __init__(self) -> None:
         """Of no ticks yet."""
         self._quantities: list[_Sides] = []
 
-    def add(self, block: Flight) -> None:
+    def add(self, block: RunColumns) -> None:
         """Take in the ticks that follow."""
         self._quantities = self._quantities or _all_sides(_step(block.time))
         for quantity in self._quantities:
@@ -56,7 +56,7 @@ class Likeness:
         return figures
 
 
-def likeness(flight: Flight) -> dict[str, float]:
+def likeness(flight: RunColumns) -> dict[str, float]:
     """Figures of specific force and angular rate along each axis of the cabin (forward x, right y, down z), also as perceived.
 
     - ..._correlation and ..._delay_s: peak of the cross-correlation and how late the platform is there (`correlation`), both 0
@@ -69,7 +69,7 @@ def likeness(flight: Flight) -> dict[str, float]:
 
     Ticks are taken as evenly spaced, as far apart as those of the first block are on average.
     """
-    return gathered(Likeness(), flight)
+    return gathered(Fidelity(), flight)
 
 
 def _step(time: Array) -> float:
@@ -86,7 +86,7 @@ class _Sides:
         self._pilot, self._rider = ([Sensing(quantity.organ, dt) for _ in range(3)] for _ in range(2))
         self._error = Spread()
 
-    def add(self, block: Flight) -> None:
+    def add(self, block: RunColumns) -> None:
         """Take in the ticks that follow."""
         vehicle, platform = getattr(block, self._quantity.vehicle), getattr(block, self._quantity.platform)
         square = np.zeros(len(block.time))
@@ -118,7 +118,7 @@ class _Alike:
     """Likeness of two signals along one axis."""
 
     def __init__(self, threshold: float, dt: float) -> None:
-        self._correlation, self._cues = Correlation(dt, VARIATION * threshold), Cues(threshold)
+        self._correlation, self._cues = Correlation(dt, VARIATION * threshold), CueCounter(threshold)
 
     def add(self, pilot: Array, rider: Array) -> None:
         """Take in the ticks that follow."""

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..signals import StageLimits, WheelLimits
-from .run_columns import Array, Flight, Tail, gathered
+from .run_columns import Array, RunColumns, Tail, gathered
 from .statistics import Peaks
 
 TOLERANCE = 1e-6  # of a limit: differences over 1 ms of times up to an hour carry rounding of 1e-9, resting on a limit is fair
@@ -30,7 +30,7 @@ class LimitUse:
         self._peaks = {name: Peaks() for name in self._limits}
         self._tail = Tail(2)
 
-    def add(self, block: Flight) -> None:
+    def add(self, block: RunColumns) -> None:
         """Take in the ticks that follow."""
         t, speed, acceleration, p, v, a = self._tail.joined(
             block.time, block.wheel_speed, block.wheel_acceleration, block.motion_p_W, block.motion_v_W, block.motion_a_W
@@ -58,7 +58,7 @@ class LimitUse:
         return {name: float(np.max(self._peaks[name].components / limit)) for name, limit in self._limits.items()}
 
 
-def limit_use(flight: Flight, wheels: WheelLimits, stage: StageLimits) -> dict[str, float]:
+def limit_use(flight: RunColumns, wheels: WheelLimits, stage: StageLimits) -> dict[str, float]:
     """Largest use of each limit over the flight and over wheels or axes, as a fraction of the limit.
 
     `..._logged` is the quantity in the log; `..._difference` the slope of the next lower one between two ticks, which the

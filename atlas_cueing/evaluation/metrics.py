@@ -4,12 +4,12 @@ from math import inf
 
 import numpy as np
 
-from .actuation import Effort
-from .coriolis import Turning
+from .actuation import Actuation
+from .coriolis import Coriolis
 from .cost import cost_of
 from .deviation import Deviation
-from .fidelity import Likeness
-from .run_columns import Flight, gathered
+from .fidelity import Fidelity
+from .run_columns import RunColumns, gathered
 
 
 class Metrics:
@@ -17,10 +17,10 @@ class Metrics:
 
     def __init__(self) -> None:
         """Of no ticks yet."""
-        self._deviation, self._likeness, self._turning, self._effort = Deviation(), Likeness(), Turning(), Effort()
+        self._deviation, self._likeness, self._turning, self._effort = Deviation(), Fidelity(), Coriolis(), Actuation()
         self._ticks, self._first, self._last = 0, inf, -inf
 
-    def add(self, block: Flight) -> None:
+    def add(self, block: RunColumns) -> None:
         """Take in the ticks that follow."""
         for part in (self._deviation, self._likeness, self._turning, self._effort):
             part.add(block)
@@ -43,7 +43,7 @@ class Metrics:
         }
 
 
-def metrics(flight: Flight) -> dict[str, float]:
+def metrics(flight: RunColumns) -> dict[str, float]:
     """All figures of a flight, the most telling first, each with its unit in the name; correlations and turns have none.
 
     Shares are 0 to 1 of the ticks. The definitions stand with the functions: `deviation` (force, direction, rate and attitude

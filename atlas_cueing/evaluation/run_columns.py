@@ -25,7 +25,7 @@ class Columns(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Flight:
+class RunColumns:
     """All ticks of a run, one row each; SI and rad, names and frames as in `signals.states`.
 
     `felt_f` and `felt_w` are what the rider's head feels, in cabin FRD axes; `limited` is (n, 2) of 0 or 1: wheels, stage.
@@ -53,7 +53,7 @@ class Flight:
     felt_w: Array
 
     @classmethod
-    def of(cls, log: Columns) -> "Flight":
+    def of(cls, log: Columns) -> "RunColumns":
         """The flight in a log."""
         return cls(
             time=log.column("/motion", "time_s"),
@@ -78,28 +78,28 @@ class Flight:
             felt_w=log.vector("/felt", "w"),
         )
 
-    def rows(self, rows: slice) -> "Flight":
+    def rows(self, rows: slice) -> "RunColumns":
         """A part of the flight."""
-        return Flight(**{field.name: getattr(self, field.name)[rows] for field in fields(self)})
+        return RunColumns(**{field.name: getattr(self, field.name)[rows] for field in fields(self)})
 
-    def blocks(self, ticks: int = BLOCK_TICKS) -> Iterator["Flight"]:
+    def blocks(self, ticks: int = BLOCK_TICKS) -> Iterator["RunColumns"]:
         """The flight in blocks of so many ticks, counted from its start, each component of each column contiguous."""
         for start in range(0, len(self.time), ticks):
             block = self.rows(slice(start, start + ticks))
-            yield Flight(**{field.name: np.asfortranarray(getattr(block, field.name)) for field in fields(self)})
+            yield RunColumns(**{field.name: np.asfortranarray(getattr(block, field.name)) for field in fields(self)})
 
 
 class Figures(Protocol):
     """Figures of a flight that comes block by block; only quantiles need memory that grows with it (`statistics.Spread`)."""
 
-    def add(self, block: Flight) -> None:
+    def add(self, block: RunColumns) -> None:
         """Take in the ticks that follow, at least one."""
 
     def figures(self) -> dict[str, float]:
         """The figures of all ticks so far, the unit in the name."""
 
 
-def gathered(figures: Figures, flight: Flight) -> dict[str, float]:
+def gathered(figures: Figures, flight: RunColumns) -> dict[str, float]:
     """The figures of a whole flight, taken in block by block: to the last bit those of its log, read in the same blocks."""
     for block in flight.blocks():
         figures.add(block)

@@ -12,9 +12,9 @@ from typing import Protocol
 from ..signals import Tick
 from ..signals import Timing as TickTiming
 from .clock import Clock
-from .control.controller import Conductor
+from .control.controller import LiveController
 from .control.guard import Command
-from .timing import Timing
+from .timing import LoopTiming
 
 LEAD = 0.008  # s from a tick's deadline to the time its set point is for; what a drive may use up of it is jitter
 
@@ -43,7 +43,7 @@ class Loop:
         self,
         dt: float,
         clock: Clock,
-        conductor: Conductor,
+        conductor: LiveController,
         outputs: Sequence[Output],
         drives: Sequence[Drives],
         origin: float | None = None,
@@ -53,7 +53,7 @@ class Loop:
         self._outputs, self._drives = outputs, drives
         self._missed_in_a_row = 0
         self.ticks, self.time = 0, 0.0
-        self.timing = Timing()
+        self.timing = LoopTiming()
 
     def run(self) -> None:
         """Tick on."""

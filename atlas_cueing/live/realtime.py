@@ -12,7 +12,7 @@ _MCL_CURRENT, _MCL_FUTURE = 1, 2  # sys/mman.h
 
 
 @dataclass(slots=True)
-class Punctual:
+class RealtimeScheduling:
     """What was granted, and what was refused and why."""
 
     granted: list[str] = field(default_factory=list)
@@ -20,13 +20,13 @@ class Punctual:
 
 
 @contextmanager
-def punctual(priority: bool) -> Iterator[Punctual]:
+def punctual(priority: bool) -> Iterator[RealtimeScheduling]:
     """Everything collected, frozen and collection off while inside; with `priority` the rest is asked for as well.
 
     Priority, memory, affinity and collection are as before afterwards; only SCHED_RESET_ON_FORK stays where the system does
     not let it go (sched(7)). What the system refuses is told and does no harm.
     """
-    found = Punctual()
+    found = RealtimeScheduling()
     scheduler, affinity = os.sched_getscheduler(0), os.sched_getaffinity(0)
     parameters = os.sched_getparam(0)
     collecting = gc.isenabled()
@@ -57,7 +57,7 @@ def collections() -> int:
     return sum(generation["collections"] for generation in gc.get_stats())
 
 
-def _ask(found: Punctual, name: str, what: Callable[[], None]) -> None:
+def _ask(found: RealtimeScheduling, name: str, what: Callable[[], None]) -> None:
     try:
         what()
     except OSError as error:

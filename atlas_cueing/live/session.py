@@ -9,19 +9,19 @@ from pathlib import Path
 
 from ..errors import InputError
 from ..recording import McapRecorder
-from ..run import Evaluation, build, evaluate
+from ..run import Evaluation, build_pipeline, evaluate_log
 from ..scenario import Scenario
 from ..telemetry import LiveWriter, Ring, live_ring
-from ..telemetry.operator_buttons import Buttons
+from ..telemetry.operator_buttons import OperatorButtons
 from .clock import MonotonicClock
-from .control.controller import Conductor, Wishes
+from .control.controller import LiveController, OperatorInputs
 from .control.guard import Guard
-from .control.platform_controller import Ride, no_vehicle
+from .control.platform_controller import PlatformController, no_vehicle
 from .input.source import Source
 from .loop import Drives, Loop
 from .open_source import open_source
 from .output.recorder_process import RecorderProcess
-from .realtime import Punctual, collections, punctual
+from .realtime import RealtimeScheduling, collections, punctual
 
 RATES = (100.0, 1000.0)  # Hz, lowest and highest of the loop
 DEFAULT_RATE = 500.0  # Hz
@@ -58,7 +58,7 @@ class LiveResult:
     dropped: int
     lost: int
     timing: dict[str, float]
-    punctual: Punctual
+    punctual: RealtimeScheduling
     evaluation: Evaluation = field(default_factory=Evaluation)
 
     @property
@@ -94,10 +94,10 @@ class LiveSession:
             raise InputError(f"--rate {options.rate:g} Hz, allowed: {RATES[0]:g} <= rate <= {RATES[1]:g}")
         self._scenario, self._log, self._options = scenario, Path(log), options
         self._dt = 1.0 / options.rate
-        self._pipeline = build(scenario, self._dt)
+        self._pipeline = build_pipeline(scenario, self._dt)
         self._source: Source = open_source(scenario)
         self.ring: Ring = live_ring(RING_SECONDS, options.rate)
-        self.buttons = Buttons()
+        self.buttons = OperatorButtons()
         self._clock = MonotonicClock()
         self._origin, self.started_ns = self._clock.now(), time.time_ns()  # one moment, by the loop's clock and by the wall's
 
@@ -106,7 +106,7 @@ class LiveSession:
         with ExitStack() as stack:
             stack.enter_context(closing(self._source))
             recorder = RecorderProcess(self.ring, self._recorder(), announce=self._options.announce)
-            asked = Wishes(self.buttons.edges, signals, self._options.duration, self._options.attended)
+            asked = OperatorInputs(self.buttons.edges, signals, self._options.duration, self._options.attended)
             conductor = self._conductor(asked)
             writer = LiveWriter(self.ring)
             loop = Loop(self._dt, self._clock, conductor, [writer], drives, self._origin)
@@ -135,13 +135,13 @@ class LiveSession:
             self._evaluation(loop.ticks),
         )
 
-    def _conductor(self, wishes: Wishes) -> Conductor:
+    def _conductor(self, wishes: OperatorInputs) -> LiveController:
         platform = self._scenario.platform
-        limits = platform.stage_motion_limits()
+        limits = platform.stage_limit_values()
         self._warm_up()
-        ride = Ride(lambda: build(self._scenario, self._dt), platform.geometry().sphere_from_wheels, limits.travel, self._dt)
-        guard = Guard(self._dt, platform.wheel_speed_limits(), limits)
-        conductor = Conductor(ride, guard, self._source, wishes)
+        ride = PlatformController(lambda: build_pipeline(self._scenario, self._dt), platform.geometry().sphere_from_wheels, limits.travel, self._dt)
+        guard = Guard(self._dt, platform.wheel_limit_values(), limits)
+        conductor = LiveController(ride, guard, self._source, wishes)
         if self._options.engage:
             conductor.engage()
         return conductor
@@ -171,4 +171,4 @@ class LiveSession:
     def _evaluation(self, ticks: int) -> Evaluation:
         if ticks > MOST_EVALUATED or not self._log.exists():
             return Evaluation()
-        return evaluate(self._log, self._scenario.platform)
+        return evaluate_log(self._log, self._scenario.platform)

@@ -8,7 +8,7 @@ from types import FrameType
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
-class Ending:
+class StopSignals:
     """How often the process has been asked to end."""
 
     def __init__(self) -> None:
@@ -24,9 +24,9 @@ class Ending:
 
 
 @contextmanager
-def ending() -> Iterator[Ending]:
+def ending() -> Iterator[StopSignals]:
     """Signals are counted while inside. For the main thread, where Python delivers them."""
-    found = Ending()
+    found = StopSignals()
     before = {number: signal.signal(number, found.ask) for number in _SIGNALS}
     try:
         yield found

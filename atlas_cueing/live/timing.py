@@ -35,7 +35,7 @@ class Histogram:
         return self._counts
 
 
-class Timing:
+class LoopTiming:
     """All figures of a run."""
 
     def __init__(self) -> None:

@@ -1,6 +1,6 @@
 """The MCAP log: written tick by tick, read back as columns."""
 
-from .log import Log, Status, Table
+from .log import Log, Status, TopicColumns
 from .reader import read_log
 from .recorder import RUN_METADATA, McapRecorder
 
@@ -9,6 +9,6 @@ __all__ = [
     "Log",
     "McapRecorder",
     "Status",
-    "Table",
+    "TopicColumns",
     "read_log",
 ]

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..errors import LogError
 from .container import LIBRARY
 from .decoding import FIELDS, Decoder, NumberDecoder, PoseDecoder, StateDecoder, decoder_of
-from .log import Growing, Log, Status, Table
+from .log import Growing, Log, Status, TopicColumns
 from .merging import States, common_fields, merged, merged_states
 from .message_starts import Starts, message_starts
 from .recorder import RUN_METADATA
@@ -144,7 +144,7 @@ class LogBuilder:
         kept += states
         when += times.tolist()
 
-    def _table(self, channels: Sequence[Growing]) -> Table:
+    def _table(self, channels: Sequence[Growing]) -> TopicColumns:
         """One topic's; our own recorder writes ticks in order, and if they are not, review has to see it."""
         plain = len(channels) == 1 and self.library == LIBRARY
         return channels[0].table() if plain else merged(channels)

@@ -15,7 +15,7 @@ _COMPONENTS = ("wxyz", "xyz", "123")  # of a quaternion, a vector, the wheels
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
+class TopicColumns:
     """All messages of a topic: `values` (n, fields) and `log_times` (n,) in ns, in the order of the log."""
 
     fields: tuple[str, ...]
@@ -42,11 +42,11 @@ class Log:
     """
 
     path: Path
-    tables: Mapping[str, Table]
+    tables: Mapping[str, TopicColumns]
     metadata: Mapping[str, str]
     attachments: Mapping[str, bytes]
     statuses: tuple[Status, ...]
-    transforms: Table | None = None
+    transforms: TopicColumns | None = None
     notes: tuple[str, ...] = ()
 
     @classmethod
@@ -55,7 +55,7 @@ class Log:
         tables, start = {}, 0
         for topic in TOPICS:
             end = start + len(topic.fields)
-            tables[topic.name], start = Table(topic.fields, ticks[:, start:end]), end
+            tables[topic.name], start = TopicColumns(topic.fields, ticks[:, start:end]), end
         return cls(Path(), tables, {}, {}, ())
 
     def column(self, topic: str, field: str) -> Array:
@@ -81,7 +81,7 @@ class Log:
         # as a part of the table where they lie side by side, as in all logs of ours
         return table.values[:, slice(start, end) if columns == list(range(start, end)) else columns]
 
-    def _table(self, topic: str) -> Table:
+    def _table(self, topic: str) -> TopicColumns:
         if topic not in self.tables:
             raise LogError(f"{self.path}: the log has no topic {topic!r}; topics: {', '.join(self.tables)}")
         return self.tables[topic]
@@ -99,8 +99,8 @@ class Growing:
         self._values += np.ascontiguousarray(values).data.cast("B")
         self._times += np.ascontiguousarray(times).data.cast("B")
 
-    def table(self) -> Table:
+    def table(self) -> TopicColumns:
         """What was added, to be read only."""
         values, times = np.frombuffer(self._values).reshape(-1, len(self.fields)), np.frombuffer(self._times, np.uint64)
         values.flags.writeable = times.flags.writeable = False
-        return Table(self.fields, values, times)
+        return TopicColumns(self.fields, values, times)

@@ -9,7 +9,7 @@ import numpy as np
 from ..signals import LIVE_TOPICS, Topic
 from .chunk import EncodedChunk
 from .container import Container
-from .log import Log, Table
+from .log import Log, TopicColumns
 from .recorder import RUN_METADATA
 from .schemas import STATUS, TF, flat_schema, message_class, schema_of
 from .transforms import put_transforms, transform_template
@@ -68,7 +68,7 @@ def _chunk(parts: list[tuple[_Stream, slice]]) -> EncodedChunk:
     return EncodedChunk(b"".join(pieces), index)
 
 
-def _numbers(container: Container, topic: str, table: Table) -> _Stream:
+def _numbers(container: Container, topic: str, table: TopicColumns) -> _Stream:
     known = {each.name: each.schema for each in LIVE_TOPICS}
     name = known.get(topic, "atlas." + re.sub(r"\W", "_", topic.strip("/")).title())
     channel = container.add_channel(topic, name, flat_schema(Topic(topic, name, table.fields)))
@@ -84,7 +84,7 @@ def _numbers(container: Container, topic: str, table: Table) -> _Stream:
     return _Stream(channel, table.log_times, encode)
 
 
-def _poses(container: Container, table: Table) -> _Stream:
+def _poses(container: Container, table: TopicColumns) -> _Stream:
     channel = container.add_channel(TF, *schema_of(TF))
     template = transform_template(channel)
 

@@ -5,14 +5,14 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from .log import Growing, Status, Table
+from .log import Growing, Status, TopicColumns
 from .wire import Times
 
 Rows = NDArray[np.intp]
 States = tuple[list[Status], list[int]]  # changes of state, and their log times, ns
 
 
-def merged(channels: Sequence[Growing]) -> Table:
+def merged(channels: Sequence[Growing]) -> TopicColumns:
     """The table of one topic from all its channels, in order of log time.
 
     Fields that not all channels have are left out.
@@ -25,7 +25,7 @@ def merged(channels: Sequence[Growing]) -> Table:
     values = np.concatenate([table.values[:, picked] for table, picked in zip(tables, columns, strict=True)])[rows]
     times = np.concatenate([table.log_times for table in tables])[rows]
     values.flags.writeable = times.flags.writeable = False
-    return Table(fields, values, times)
+    return TopicColumns(fields, values, times)
 
 
 def merged_states(channels: Sequence[States]) -> tuple[Status, ...]:

@@ -8,7 +8,17 @@ from pathlib import Path
 import numpy as np
 from google.protobuf.message import DecodeError
 from mcap.exceptions import McapError
-from mcap.records import Attachment, Channel, Chunk, DataEnd, Header, McapRecord, Metadata, Schema, Statistics
+from mcap.records import (
+    Attachment,
+    Channel,
+    Chunk,
+    DataEnd,
+    Header,
+    McapRecord,
+    Metadata,
+    Schema,
+    Statistics,
+)
 
 from ..errors import LogError
 from .builder import LogBuilder

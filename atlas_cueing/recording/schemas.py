@@ -7,7 +7,11 @@ A schema record of an MCAP file holds a serialised FileDescriptorSet with the me
 from typing import Any
 
 from google.protobuf import descriptor_pool, message_factory, timestamp_pb2
-from google.protobuf.descriptor_pb2 import FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet
+from google.protobuf.descriptor_pb2 import (
+    FieldDescriptorProto,
+    FileDescriptorProto,
+    FileDescriptorSet,
+)
 
 from ..errors import LogError
 from ..signals import LIVE_TOPICS, Topic

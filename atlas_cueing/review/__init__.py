@@ -1,11 +1,11 @@
 """From a log to a verdict, a picture and a comparison, by arithmetic of its own."""
 
-from .comparison import Comparison, compare
-from .cue_again import recue
+from .comparison import Comparison, compare_logs
+from .cue_again import cue_again
 from .finding import Finding
 from .recorded_run import RecordedRun, open_log, open_run
-from .recovery import Recovered, advice, recover
-from .verdict import Review, judge, review
+from .recovery import Recovered, advice, recover_log
+from .verdict import Review, judge, review_log
 
 __all__ = [
     "Comparison",
@@ -14,11 +14,11 @@ __all__ = [
     "Recovered",
     "Review",
     "advice",
-    "compare",
+    "compare_logs",
+    "cue_again",
     "judge",
     "open_log",
     "open_run",
-    "recover",
-    "recue",
-    "review",
+    "recover_log",
+    "review_log",
 ]

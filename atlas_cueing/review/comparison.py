@@ -8,7 +8,7 @@ import numpy as np
 
 from ..errors import InputError
 from .recorded_run import RecordedRun
-from .verdict import Review, review
+from .verdict import Review, review_log
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +36,7 @@ class Comparison:
         }
 
 
-def compare(paths: Sequence[str | Path], *, different_flights: bool = False) -> Comparison:
+def compare_logs(paths: Sequence[str | Path], *, different_flights: bool = False) -> Comparison:
     """Review every log and put the figures side by side.
 
     Raises InputError for fewer than two logs, or when the vehicle did not fly the same in all and `different_flights` is not
@@ -44,7 +44,7 @@ def compare(paths: Sequence[str | Path], *, different_flights: bool = False) -> 
     """
     if len(paths) < 2:
         raise InputError(f"compare needs at least two logs; got {len(paths)}")
-    reviews = tuple(review(path) for path in paths)
+    reviews = tuple(review_log(path) for path in paths)
     for other in reviews[1:]:
         difference = flights_differ(reviews[0].run, other.run)
         if difference and not different_flights:

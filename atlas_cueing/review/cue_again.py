@@ -19,7 +19,7 @@ from .recorded_run import open_log
 _FLOWN = ("vehicle", "duration_s")  # keys of what has been flown already
 
 
-def recue(path: str | Path, settings: Sequence[str], output: str | Path) -> Scenario:
+def cue_again(path: str | Path, settings: Sequence[str], output: str | Path) -> Scenario:
     """Write `output`, the flight of the log `path` cued anew with `KEY=VALUE` settings on top of the log's own scenario.
 
     Without settings, cue, motion and wheels are the log's own to the last bit. With another method, what the old one had by

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import InputError, LogError
-from ..evaluation import Flight
+from ..evaluation import RunColumns
 from ..recording import Log, read_log
 from ..scenario import Platform
 from .attachments import platform_of
@@ -25,7 +25,7 @@ class RecordedRun:
 
     log: Log
     platform: Platform
-    flight: Flight
+    flight: RunColumns
 
     @property
     def step(self) -> float:
@@ -54,7 +54,7 @@ def open_run(path: str | Path) -> RecordedRun:
     platform that it was flown on.
     """
     log = open_log(path)
-    flight = Flight.of(_even(log))
+    flight = RunColumns.of(_even(log))
     return RecordedRun(log, platform_of(log), flight)
 
 

@@ -31,7 +31,7 @@ class Recovered:
         return {"log": str(self.log), "ticks": self.ticks, "recovered_s": self.seconds, "lost": list(self.lost)}
 
 
-def recover(broken: str | Path, output: str | Path) -> Recovered:
+def recover_log(broken: str | Path, output: str | Path) -> Recovered:
     """Write every complete chunk of `broken` into the finished log `output`, which is replaced if it exists.
 
     Raises InputError when there is no file `broken`, LogError when it holds nothing to recover, and OutputError when `output`

@@ -7,14 +7,14 @@ import numpy as np
 
 from ..run import evaluate_flight
 from .checks.actuators import check_actuators
-from .checks.deadlines import check_punctuality, punctuality_notes
-from .checks.felt_force import check_sensation
-from .checks.finite import check_numbers
-from .checks.limited_flags import check_honesty
-from .checks.log_times import check_stamps
+from .checks.deadlines import check_deadlines, punctuality_notes
+from .checks.felt_force import check_felt_force
+from .checks.finite import check_finite
+from .checks.limited_flags import check_limited_flags
+from .checks.log_times import check_log_times
 from .checks.orientation import check_orientation
-from .checks.status import check_course, notes
-from .checks.timestamps import check_clock
+from .checks.status import check_status, notes
+from .checks.timestamps import check_timestamps
 from .finding import Finding
 from .recorded_run import RecordedRun, open_run
 
@@ -63,7 +63,7 @@ class Review:
         }
 
 
-def review(path: str | Path) -> Review:
+def review_log(path: str | Path) -> Review:
     """Read a log and judge it by its own numbers, with arithmetic that shares nothing with what wrote it.
 
     Raises InputError when there is no such file, and LogError when it is damaged, not a log of ours, or has no platform.
@@ -73,10 +73,10 @@ def review(path: str | Path) -> Review:
 
 def judge(run: RecordedRun) -> Review:
     """The review of a run that is open already."""
-    found = [*check_course(run), *check_clock(run), *check_numbers(run), *check_stamps(run), *check_punctuality(run)]
+    found = [*check_status(run), *check_timestamps(run), *check_finite(run), *check_log_times(run), *check_deadlines(run)]
     with np.errstate(all="ignore"):  # numbers out of range have been found by now
         if not any(finding.check == "ticks lost" for finding in found):
-            found += [*check_orientation(run), *check_actuators(run), *check_sensation(run), *check_honesty(run)]
+            found += [*check_orientation(run), *check_actuators(run), *check_felt_force(run), *check_limited_flags(run)]
         figures = evaluate_flight(run.log, run.flight, run.platform).metrics
     found.sort(key=lambda finding: -1.0 if finding.time is None else finding.time)
     told = (*run.log.notes, *notes(run), *punctuality_notes(run))

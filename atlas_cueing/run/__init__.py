@@ -1,21 +1,21 @@
 """TO WRITE."""
 
-from .build import build, prepare
-from .evaluate import Evaluation, Evaluator, evaluate, evaluate_flight
+from .build import build_pipeline, prepare
+from .evaluate import Evaluation, Evaluator, evaluate_flight, evaluate_log
 from .fly import RunResult, run_scenario
 from .output import PAGE, check_output
-from .stop_request import Interrupt
+from .stop_request import StopRequest
 
 __all__ = [
     "PAGE",
     "Evaluation",
     "Evaluator",
-    "Interrupt",
     "RunResult",
-    "build",
+    "StopRequest",
+    "build_pipeline",
     "check_output",
-    "evaluate",
     "evaluate_flight",
+    "evaluate_log",
     "prepare",
     "run_scenario",
 ]

@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from ..cueing import Cues
-from ..cueing import build as build_cueing
+from ..cueing import CueSource
+from ..cueing import build_cueing as build_cueing
 from ..errors import InputError, Mistake, ScenarioError, SlipConditionError
 from ..pipeline import Pipeline
 from ..scenario.cueing_table import PreviewTable
@@ -16,7 +16,7 @@ from ..vehicles import FlownAhead
 from ..wheels import Wheels
 
 
-def build(scenario: Scenario, dt: float, states: Sequence[VehicleState] | None = None) -> Pipeline:
+def build_pipeline(scenario: Scenario, dt: float, states: Sequence[VehicleState] | None = None) -> Pipeline:
     """A new pipeline for one flight of `scenario` with a state every `dt` s (the vehicle's step).
 
     states: all states of the flight, for a method that needs them (`Scenario.needs_whole_flight`).
@@ -32,8 +32,8 @@ def build(scenario: Scenario, dt: float, states: Sequence[VehicleState] | None =
             dt=dt,
             wheels_from_sphere=wheels.wheels_from_sphere,
             sphere_from_wheels=wheels.sphere_from_wheels,
-            wheel_limits=platform.wheel_speed_limits(),
-            stage_limits=platform.stage_motion_limits(),
+            wheel_limits=platform.wheel_limit_values(),
+            stage_limits=platform.stage_limit_values(),
         )
         cueing = _cueing(scenario, dt, states)
     except ValueError as error:
@@ -50,9 +50,9 @@ def prepare(scenario: Scenario, vehicle: Vehicle) -> tuple[Vehicle, Pipeline]:
     is returned as it is. Raises what `build` raises.
     """
     if not scenario.needs_whole_flight:
-        return vehicle, build(scenario, vehicle.dt)
+        return vehicle, build_pipeline(scenario, vehicle.dt)
     ahead = FlownAhead(vehicle)
-    return ahead, build(scenario, ahead.dt, ahead.states)
+    return ahead, build_pipeline(scenario, ahead.dt, ahead.states)
 
 
 def _wheels(scenario: Scenario) -> Wheels:
@@ -72,9 +72,9 @@ def _check_room(scenario: Scenario, dt: float) -> None:
         raise ScenarioError(mistakes)
 
 
-def _cueing(scenario: Scenario, dt: float, states: Sequence[VehicleState] | None) -> Cues:
+def _cueing(scenario: Scenario, dt: float, states: Sequence[VehicleState] | None) -> CueSource:
     method, platform = scenario.file.cueing, scenario.platform
-    stage_limits = platform.stage_motion_limits()
+    stage_limits = platform.stage_limit_values()
     if not isinstance(method, PreviewTable):
         return build_cueing(method.parameters(), method.stage_parameters(), stage_limits, platform.head_S, dt)
     if states is None:
@@ -82,6 +82,8 @@ def _cueing(scenario: Scenario, dt: float, states: Sequence[VehicleState] | None
             f"scenario {scenario.name!r}: method 'preview' needs the whole flight beforehand, so it does not fly live; "
             "use run, batch or recue, or another method"
         )
-    from ..cueing.preview import preview  # with scipy.sparse, which takes a quarter of a second to load
+    from ..cueing.preview import (
+        preview,  # with scipy.sparse, which takes a quarter of a second to load
+    )
 
     return preview(states, method.parameters(), stage_limits, platform.head_S, dt)

@@ -7,7 +7,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import LogError
-from ..evaluation import BLOCK_TICKS, Consistency, Flight, LimitUse, Metrics, ridden, violations
+from ..evaluation import (
+    BLOCK_TICKS,
+    Consistency,
+    LimitUse,
+    Metrics,
+    RunColumns,
+    engaged_segment,
+    violations,
+)
 from ..recording import Log, read_log
 from ..scenario.platform_file import Platform
 from ..signals import TIMING, TOPICS
@@ -25,7 +33,7 @@ class Evaluation:
     violations: tuple[str, ...] = ()
 
 
-def evaluate(log: str | Path, platform: Platform) -> Evaluation:
+def evaluate_log(log: str | Path, platform: Platform) -> Evaluation:
     """Read the log and compute everything; a log that cannot be read back is itself a violation.
 
     Limits are looked at over the whole run, metrics of a live one over its longest stretch in state `running`.
@@ -33,13 +41,13 @@ def evaluate(log: str | Path, platform: Platform) -> Evaluation:
     found = _Found(platform)
     try:
         recorded = read_log(log, _ANY_LENGTH)
-        found.add_log(recorded, Flight.of(recorded))
+        found.add_log(recorded, RunColumns.of(recorded))
     except LogError as error:
         return Evaluation(violations=(f"not evaluated: {error}",))
     return found.evaluation()
 
 
-def evaluate_flight(log: Log, flight: Flight, platform: Platform) -> Evaluation:
+def evaluate_flight(log: Log, flight: RunColumns, platform: Platform) -> Evaluation:
     """Compute everything of a log that has been read: the same figures, to the last bit, as the run gave that wrote it.
 
     flight: that of the log, with equally many rows everywhere.
@@ -76,7 +84,7 @@ class Evaluator:
         self._held = 0
 
     def _take(self) -> None:
-        self._found.add(Flight.of(Log.of_ticks(self._block[: self._held])))
+        self._found.add(RunColumns.of(Log.of_ticks(self._block[: self._held])))
         self._begin()
 
 
@@ -85,29 +93,29 @@ class _Found:
 
     def __init__(self, platform: Platform) -> None:
         geometry = platform.geometry()
-        self._use = LimitUse(platform.wheel_speed_limits(), platform.stage_motion_limits())
+        self._use = LimitUse(platform.wheel_limit_values(), platform.stage_limit_values())
         self._metrics = Metrics()
         self._consistency = (
             Consistency(geometry.wheels_from_sphere, geometry.sphere_from_wheels) if geometry.slip_free else None
         )
 
-    def add(self, flight: Flight) -> None:
+    def add(self, flight: RunColumns) -> None:
         """Take in the ticks that follow, all of them ridden."""
         for block in flight.blocks():
             self._metrics.add(block)
             self._check(block)
 
-    def add_log(self, log: Log, flight: Flight) -> None:
+    def add_log(self, log: Log, flight: RunColumns) -> None:
         """Take in a whole run; a live one has metrics where it was running."""
         if TIMING.name not in log.tables:
             self.add(flight)
             return
-        for block in ridden(flight, log.statuses).blocks():
+        for block in engaged_segment(flight, log.statuses).blocks():
             self._metrics.add(block)
         for block in flight.blocks():
             self._check(block)
 
-    def _check(self, block: Flight) -> None:
+    def _check(self, block: RunColumns) -> None:
         self._use.add(block)
         if self._consistency:
             self._consistency.add(block)

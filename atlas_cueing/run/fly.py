@@ -16,7 +16,7 @@ from ..signals import Sink, Vehicle, VehicleState, attitude_jump
 from ..vehicles import JsbsimVehicle, SignalFlight, SignalVehicle
 from .build import prepare
 from .evaluate import Evaluation, Evaluator
-from .stop_request import Interrupt
+from .stop_request import StopRequest
 
 Progress: TypeAlias = Callable[[float], None]  # called now and then with the flight time, s
 
@@ -103,7 +103,7 @@ def run_scenario(scenario: Scenario, log: str | Path, *, progress: Progress | No
     return RunResult(flown.result, flown.reason, log, flown.ticks, flown.time, wall, evaluator.evaluation())
 
 
-def fly(vehicle: Vehicle, pipeline: Pipeline, sink: Sink, flown: Flown, progress: Progress | None, stop: Interrupt) -> None:
+def fly(vehicle: Vehicle, pipeline: Pipeline, sink: Sink, flown: Flown, progress: Progress | None, stop: StopRequest) -> None:
     """Step until the vehicle ends or `stop` is requested; `flown` is kept up to date. Raises what the vehicle raises."""
     kept = _Keeper(pipeline, sink, flown, progress)
     states, more = [vehicle.state], True
@@ -115,7 +115,7 @@ def fly(vehicle: Vehicle, pipeline: Pipeline, sink: Sink, flown: Flown, progress
         states = []
 
 
-def _gather(vehicle: Vehicle, states: list[VehicleState], stop: Interrupt) -> bool:
+def _gather(vehicle: Vehicle, states: list[VehicleState], stop: StopRequest) -> bool:
     """Fill up a block of states; False at the end of the flight."""
     while len(states) < BLOCK:
         if stop.requested or not vehicle.advance():
@@ -166,7 +166,7 @@ def _record(vehicle: Vehicle | None, pipeline: Pipeline | None, sink: Sink, flow
     sink.status(0.0, "running", "")
     try:
         if vehicle and pipeline:
-            with Interrupt() as stop:
+            with StopRequest() as stop:
                 fly(vehicle, pipeline, sink, flown, progress, stop)
             if stop.requested:
                 flown.result, flown.reason = "interrupted", f"asked to stop at {flown.time:.3f} s"

@@ -8,7 +8,7 @@ from typing import Any
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
-class Interrupt:
+class StopRequest:
     """While entered, the first signal sets `requested`; a second one raises KeyboardInterrupt at once.
 
     Outside the main thread, where Python does not deliver signals, nothing is caught.
@@ -18,7 +18,7 @@ class Interrupt:
         self.requested = False
         self._before: dict[signal.Signals, Any] = {}
 
-    def __enter__(self) -> "Interrupt":
+    def __enter__(self) -> "StopRequest":
         if threading.current_thread() is threading.main_thread():
             self._before = {number: signal.signal(number, self._ask) for number in _SIGNALS}
         return self

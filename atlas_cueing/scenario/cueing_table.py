@@ -21,7 +21,7 @@ from ..cueing import (
     SlowTurnParameters,
     StageParameters,
 )
-from .tables import ONE_OR_THREE, Table, number
+from .tables import ONE_OR_THREE, ScenarioTable, number
 
 Gain: TypeAlias = Annotated[float, number(0.0, 10.0)]
 Gains: TypeAlias = Annotated[tuple[Gain, Gain, Gain], ONE_OR_THREE]
@@ -50,7 +50,7 @@ def _degrees(angle: float) -> float:
     return round(degrees(angle), 12)
 
 
-class StageTable(Table):
+class StageTable(ScenarioTable):
     """`[cueing.stage]`: see StageParameters; `travel_m` is left out where the platform's own travel counts.
 
     planner: `horizon` plans ahead, by HorizonParameters; `onset` is the onset filter by itself.
@@ -90,7 +90,7 @@ class ClassicalStageTable(StageTable):
     travel_m: Travels | None = CLASSICAL_STAGE.travel
 
 
-class _Method(Table):
+class _Method(ScenarioTable):
     """What every method has."""
 
     rotation_gain: Gains = _BLEND.rotation_gain
@@ -171,7 +171,7 @@ class ClassicalTable(_Method):
         )
 
 
-class PreviewTable(Table):
+class PreviewTable(ScenarioTable):
     """Method `preview`, which has to know the whole flight: see PreviewParameters."""
 
     method: Literal["preview"] = "preview"
@@ -200,7 +200,7 @@ METHODS: dict[str, type[_Method]] = {
 }
 """The methods that know only the past, so that they fly anywhere."""
 
-ALL_METHODS: dict[str, type[Table]] = {**METHODS, "preview": PreviewTable}
+ALL_METHODS: dict[str, type[ScenarioTable]] = {**METHODS, "preview": PreviewTable}
 DEFAULT_METHOD = "blend"
 
 

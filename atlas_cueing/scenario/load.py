@@ -17,10 +17,10 @@ from .overrides import Overrides, apply_overrides, parse_overrides, with_own
 from .platform_file import Platform, presets
 from .reading import TomlFiles, read_toml
 from .scenario import Scenario, ScenarioFile
-from .tables import Table
+from .tables import ScenarioTable
 from .vehicle_table import unsettable_inputs, vehicle_rules
 
-T = TypeVar("T", bound=Table)
+T = TypeVar("T", bound=ScenarioTable)
 
 _CHOICE = ("preset", "file")
 

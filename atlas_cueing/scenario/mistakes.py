@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from ..errors import Mistake
-from .tables import Table, tables_in
+from .tables import ScenarioTable, tables_in
 
 _KINDS = {"model_type": "a table", "bool_type": "true or false", "string_type": "a string"}  # pydantic's names
 
@@ -22,7 +22,7 @@ MOST_SHOWN = 100  # mistakes of one file; who has more will mend the first ones 
 _LONGEST_VALUE = 60  # characters of a found value that a message repeats
 
 
-def mistakes_of(error: ValidationError, table: type[Table], data: dict[str, Any], name_file: "FileNamer") -> list[Mistake]:
+def mistakes_of(error: ValidationError, table: type[ScenarioTable], data: dict[str, Any], name_file: "FileNamer") -> list[Mistake]:
     """Every mistake once, in the order of the file; `name_file` says which file (or option) a key came from.
 
     Of very many only some are looked at, and a last one says how many are left.
@@ -91,7 +91,7 @@ def _repr(value: Any) -> str:
         return "an integer of thousands of digits"
 
 
-def _allowed(detail: ErrorDetails, table: type[Table]) -> str:
+def _allowed(detail: ErrorDetails, table: type[ScenarioTable]) -> str:
     kind, context = detail["type"], detail.get("ctx", {})
     if kind == "extra_forbidden":
         return f"unknown key; {nearest(str(detail['loc'][-1]), _known_keys(table, detail['loc'][:-1]))}"
@@ -106,7 +106,7 @@ def _allowed(detail: ErrorDetails, table: type[Table]) -> str:
     return detail["msg"]
 
 
-def _known_keys(table: type[Table], loc: Sequence[str | int]) -> list[str]:
+def _known_keys(table: type[ScenarioTable], loc: Sequence[str | int]) -> list[str]:
     """Keys of the table at `loc`; a method's tag in `loc` picks one of several tables."""
     tables = [table]
     for part in loc:
@@ -117,7 +117,7 @@ def _known_keys(table: type[Table], loc: Sequence[str | int]) -> list[str]:
     return [name for candidate in tables for name in candidate.model_fields]
 
 
-def _type(table: type[Table], field: str) -> Any:
+def _type(table: type[ScenarioTable], field: str) -> Any:
     return table.model_fields[field].annotation
 
 

@@ -11,7 +11,16 @@ from ..errors import InputError
 from ..rotation import ZERO, Vec3, add, norm
 from ..signals import StageLimits, WheelLimits
 from ..wheels import Geometry, OmniWheel
-from .tables import ONE_OR_THREE, THREE, Finite, Table, check_text, number, object_to, refuse
+from .tables import (
+    ONE_OR_THREE,
+    THREE,
+    Finite,
+    ScenarioTable,
+    check_text,
+    number,
+    object_to,
+    refuse,
+)
 
 Direction: TypeAlias = Annotated[tuple[Finite, Finite, Finite], THREE]
 Length: TypeAlias = Annotated[float, number(0.001, 100.0)]  # m; from a bead to a gasometer
@@ -43,13 +52,13 @@ def _is_name_part(character: str) -> bool:
 NAME = BeforeValidator(_name)
 
 
-class SphereTable(Table):
+class SphereTable(ScenarioTable):
     """`[sphere]`."""
 
     radius_m: Length
 
 
-class WheelTable(Table):
+class WheelTable(ScenarioTable):
     """One `[[wheel]]`: directions in W, of any length."""
 
     contact: Direction
@@ -75,7 +84,7 @@ def _wheel(contact: Vec3, drive: Vec3, radius: float) -> OmniWheel:
     return OmniWheel.along(add(contact, ZERO), add(drive, ZERO), radius)
 
 
-class WheelLimitsTable(Table):
+class WheelLimitsTable(ScenarioTable):
     """`[wheel_limits]`: one number for all wheels, or one each."""
 
     speed_rad_s: Limits
@@ -83,7 +92,7 @@ class WheelLimitsTable(Table):
     jerk_rad_s3: Limits
 
 
-class StageLimitsTable(Table):
+class StageLimitsTable(ScenarioTable):
     """`[stage_limits]`: one number for all axes of W, or one each; travel is plus or minus from the centre."""
 
     travel_m: Limits
@@ -92,13 +101,13 @@ class StageLimitsTable(Table):
     jerk_m_s3: Limits
 
 
-class RiderTable(Table):
+class RiderTable(ScenarioTable):
     """`[rider]`: where the head is, from the sphere centre, in S."""
 
     head_m: Annotated[tuple[Finite, Finite, Finite], THREE] = (0.0, 0.0, 0.0)
 
 
-class Platform(Table):
+class Platform(ScenarioTable):
     """A platform file."""
 
     name: Annotated[str, NAME]
@@ -121,12 +130,12 @@ class Platform(Table):
         first, second, third = self.wheel
         return Geometry(self.name, self.sphere.radius_m, (first.wheel(), second.wheel(), third.wheel()))
 
-    def wheel_speed_limits(self) -> WheelLimits:
+    def wheel_limit_values(self) -> WheelLimits:
         """Limits of the wheels, SI."""
         table = self.wheel_limits
         return WheelLimits(table.speed_rad_s, table.acceleration_rad_s2, table.jerk_rad_s3)
 
-    def stage_motion_limits(self) -> StageLimits:
+    def stage_limit_values(self) -> StageLimits:
         """Limits of the stage, SI."""
         table = self.stage_limits
         return StageLimits(table.travel_m, table.speed_m_s, table.acceleration_m_s2, table.jerk_m_s3)

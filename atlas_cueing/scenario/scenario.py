@@ -18,7 +18,7 @@ from ..vehicles.jsbsim.user_models import read_users, user_files, user_model
 from .cueing_table import BlendTable, CueingTable, PreviewTable
 from .mistakes import FileNamer, nearest
 from .platform_file import NAME, Platform, presets
-from .tables import Table, number, object_to, refuse, text, whole
+from .tables import ScenarioTable, number, object_to, refuse, text, whole
 from .vehicle_table import Flight, LiveFlight, VehicleTable
 
 # The other topics are what the run is evaluated from.
@@ -41,7 +41,7 @@ def _dispensable(value: Any) -> str:
     return str(value)
 
 
-class PlatformChoice(Table):
+class PlatformChoice(ScenarioTable):
     """`[platform]`: exactly one of `preset` and `file`, which `load` checks.
 
     The file may be anywhere that the user may read, for it is data: a small regular file of checked numbers, or it is refused.
@@ -58,7 +58,7 @@ def _as_tuple(value: Any) -> Any:
     return tuple(value)
 
 
-class RecordingTable(Table):
+class RecordingTable(ScenarioTable):
     """`[recording]`: ticks in one chunk of the log, and topics left out."""
 
     chunk_ticks: Annotated[int, whole(1, MAX_CHUNK_TICKS)] = 512
@@ -69,7 +69,7 @@ def _many_runs(_: Any) -> None:
     raise object_to("a sweep stands for many runs; fly them with: atlas-cueing batch FILE -o FOLDER")
 
 
-class ScenarioFile(Table):
+class ScenarioFile(ScenarioTable):
     """A scenario file; validate it with `context={"folder": ...}`, where user's scripts are looked for."""
 
     name: Annotated[str, NAME]
@@ -181,7 +181,7 @@ class Scenario:
         return files
 
 
-def _plain(table: Table) -> dict[str, Any]:
+def _plain(table: ScenarioTable) -> dict[str, Any]:
     """The table as TOML can hold it: keys without a value left out."""
     return table.model_dump(exclude_none=True)
 

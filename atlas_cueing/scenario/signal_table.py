@@ -8,8 +8,8 @@ from pydantic import BeforeValidator, model_validator
 
 from ..errors import InputError
 from ..vehicles import Signal
-from ..vehicles.signal_vehicle import DEFAULT_RAMP, FORCE_AXES, RATE_AXES, SHAPES, Axis, Shape
-from .tables import Table, number, object_to, refuse
+from ..vehicles.signal_vehicle import DEFAULT_RAMP, FORCE_AXES, RATE_AXES, SHAPES, Shape, SignalAxis
+from .tables import ScenarioTable, number, object_to, refuse
 
 Time: TypeAlias = Annotated[float, number(0.0, 86400.0)]  # s; a day
 Frequency: TypeAlias = Annotated[float, number(0.001, 1000.0)]
@@ -29,10 +29,10 @@ def _one_of(names: Collection[str]) -> BeforeValidator:
     return BeforeValidator(check)
 
 
-class SignalTable(Table):
+class SignalTable(ScenarioTable):
     """One `[[vehicle.signal]]`: see vehicles.Signal. Which keys an axis and a shape need, `signal_rules` checks."""
 
-    axis: Annotated[Axis, _one_of(RATE_AXES + FORCE_AXES)]
+    axis: Annotated[SignalAxis, _one_of(RATE_AXES + FORCE_AXES)]
     shape: Annotated[Shape, _one_of(SHAPES)]
     amplitude_deg_s: Annotated[float, number(-2500.0, 2500.0)] | None = None
     amplitude_m_s2: Annotated[float, number(-400.0, 400.0)] | None = None

@@ -31,7 +31,7 @@ from .overrides import Overrides, apply_overrides, parse_overrides, with_own
 from .platform_file import presets
 from .reading import count_keys, read_toml
 from .scenario import Scenario
-from .tables import Finite, Table, whole
+from .tables import Finite, ScenarioTable, whole
 
 MAX_RUNS = 10_000  # of one file; a grid of a few more keys than meant has millions, and all are checked before the first flies
 MAX_KEYS_CHECKED = 500_000  # keys of the file times runs: up to 2 us and 130 bytes each
@@ -62,13 +62,13 @@ class Variant:
     settings: dict[str, Any]
 
 
-class _Range(Table):
+class _Range(ScenarioTable):
     low: Finite
     high: Finite
     log: bool = False
 
 
-class _Counts(Table):
+class _Counts(ScenarioTable):
     draws: Annotated[int, whole(1, MAX_RUNS)] | None = None
     seed: Annotated[int, whole(0, 2**63 - 1)] = 0
 

@@ -10,7 +10,7 @@ from pydantic_core import PydanticCustomError
 _LARGEST_SHOWN = 1e15
 
 
-class Table(BaseModel):
+class ScenarioTable(BaseModel):
     """A TOML table: no unknown keys, no conversions except integer to float, immutable."""
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
@@ -114,8 +114,8 @@ ONE_OR_THREE = BeforeValidator(_one_or_three)  # one number stands for all three
 Finite: TypeAlias = Annotated[float, BeforeValidator(_finite)]
 
 
-def tables_in(annotation: Any) -> list[type[Table]]:
+def tables_in(annotation: Any) -> list[type[ScenarioTable]]:
     """The tables that a key of this type may hold."""
-    if isinstance(annotation, type) and issubclass(annotation, Table):
+    if isinstance(annotation, type) and issubclass(annotation, ScenarioTable):
         return [annotation]
     return [table for argument in get_args(annotation) for table in tables_in(argument)]

@@ -30,7 +30,7 @@ from ..vehicles.jsbsim.user_models import aircraft_objection, user_model, within
 from .mistakes import MOST_SHOWN, Key, nearest, shown
 from .recorded import RecordedFlight
 from .signal_table import SignalTable, Time, signal_rules
-from .tables import Finite, Table, number, object_to, refuse, text, whole
+from .tables import Finite, ScenarioTable, number, object_to, refuse, text, whole
 
 Flight: TypeAlias = ScriptFlight | AircraftFlight | SignalFlight
 LiveFlight: TypeAlias = Flight | FlightgearFlight | RecordedFlight
@@ -94,7 +94,7 @@ def _known_script(value: Any, info: ValidationInfo) -> str:
     return _known("scripts, or a file in the scenario's folder (links resolved)", own_scripts(), value)
 
 
-class InitialTable(Table):
+class InitialTable(ScenarioTable):
     """`[vehicle.initial]`: see vehicles.InitialConditions."""
 
     altitude_m: Annotated[float, number(-500.0, 1e7)]
@@ -122,7 +122,7 @@ class InitialTable(Table):
         )
 
 
-class InputTable(Table):
+class InputTable(ScenarioTable):
     """One `[[vehicle.input]]`: see vehicles.TimedInput."""
 
     time_s: Time
@@ -149,7 +149,7 @@ def _tables(name: str) -> BeforeValidator:
     return BeforeValidator(check)
 
 
-class VehicleTable(Table):
+class VehicleTable(ScenarioTable):
     """`[vehicle]`: a source and its own keys, which `vehicle_rules` checks: exactly one of `script` and `aircraft`, ...
 
     host, port: where packets of a `flightgear` source come in; rate_hz: how many a second, nominally.

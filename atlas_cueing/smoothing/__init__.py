@@ -5,14 +5,14 @@ stays inside every limit (`stop`). Otherwise the stop that was certified one tic
 of the cue, and a feasible cue passes unchanged.
 """
 
-from .axis import Axis
+from .axis import AxisSmoothing
 from .smoothing import Smoothing
 from .sphere import SphereSmoothing
 from .stage import StageSmoothing
 from .stop import Stop
 
 __all__ = [
-    "Axis",
+    "AxisSmoothing",
     "Smoothing",
     "SphereSmoothing",
     "StageSmoothing",

@@ -44,7 +44,7 @@ class Step:
         self.met = met
 
 
-class Axis:
+class AxisSmoothing:
     """Tracking of a speed and acceleration inside the limits, one tick at a time."""
 
     def __init__(self, dt: float, speed: float, acceleration: float, jerk: float) -> None:

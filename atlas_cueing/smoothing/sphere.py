@@ -33,7 +33,7 @@ from ..rotation import (
     subtract,
 )
 from ..signals import Cue, WheelLimits
-from .axis import Axis, Step
+from .axis import AxisSmoothing, Step
 from .stop import approach
 
 _GAIN: Final = 4.0  # 1/s; a small orientation error is taken back with a time constant of 0.25 s
@@ -51,7 +51,7 @@ class SphereSmoothing:
         self._dt = dt
         self._wheels_from_sphere, self._sphere_from_wheels = wheels_from_sphere, sphere_from_wheels
         one, two, three = zip(limits.speed, limits.acceleration, limits.jerk, strict=True)
-        self._axes = Axis(dt, *one), Axis(dt, *two), Axis(dt, *three)
+        self._axes = AxisSmoothing(dt, *one), AxisSmoothing(dt, *two), AxisSmoothing(dt, *three)
         self._braking, self._braking_jerk = self._reserve(limits.acceleration), self._reserve(limits.jerk)
         self._speed, self._acceleration = ZERO, ZERO
         self._left, self._cue_speed = IDENTITY, ZERO

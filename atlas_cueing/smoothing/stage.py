@@ -17,7 +17,7 @@ from typing import Final
 from ..errors import PlanningError
 from ..rotation import Vec3
 from ..signals import Cue, StageLimits
-from .axis import Axis, Step
+from .axis import AxisSmoothing, Step
 from .stop import Stop, approach, stop_bound
 
 _GAIN: Final = 4.0  # 1/s; a small position error is taken back with a time constant of 0.25 s
@@ -31,7 +31,7 @@ class RailAxis:
 
     def __init__(self, dt: float, travel: float, speed: float, acceleration: float, jerk: float) -> None:
         """Start at rest in the centre. Raises ValueError for limits that leave no room to move between two ticks."""
-        self._axis = Axis(dt, speed, acceleration, jerk)
+        self._axis = AxisSmoothing(dt, speed, acceleration, jerk)
         self.travel = travel - acceleration * dt * dt / 8.0
         if not self.travel > 0.0:
             raise ValueError(f"travel > acceleration dt^2 / 8 = {acceleration * dt * dt / 8.0:.3g} m; got {travel} m")

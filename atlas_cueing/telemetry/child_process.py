@@ -18,14 +18,14 @@ _IGNORED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # a terminal sends th
 
 
 @dataclass(frozen=True, slots=True)
-class Ended:
+class ProcessExit:
     """How a process ended: what its function returned, and its exit status (negative: the signal that killed it)."""
 
     answer: bytes
     status: int
 
 
-class Forked:
+class ChildProcess:
     """A function in a process of its own, which shares whatever memory is shared at the fork.
 
     The process takes no notice of SIGINT, SIGTERM and SIGHUP; it lives until its function returns.
@@ -34,7 +34,7 @@ class Forked:
     def __init__(self, function: Callable[[Left], bytes]) -> None:
         """Start `function`; it has to ask the Left it is given every now and then, and to return soon when that is true."""
         self._channel, theirs = socket.socketpair()
-        self._ended: Ended | None = None
+        self._ended: ProcessExit | None = None
         parent = os.getpid()
         mask = signal.pthread_sigmask(signal.SIG_BLOCK, _IGNORED)
         self.pid = os.fork()
@@ -49,13 +49,13 @@ class Forked:
         """Whether it runs; asks without waiting."""
         return self._ended is None and os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None
 
-    def finish(self, timeout: float) -> Ended:
+    def finish(self, timeout: float) -> ProcessExit:
         """Let it end, and wait for that: at most `timeout` s, then it is killed. Harmless when called again."""
         if self._ended is None:
             answer = self._answer(monotonic() + timeout)
             self._channel.close()
             _, status = os.waitpid(self.pid, 0)
-            self._ended = Ended(answer, os.waitstatus_to_exitcode(status))
+            self._ended = ProcessExit(answer, os.waitstatus_to_exitcode(status))
         return self._ended
 
     def _answer(self, deadline: float) -> bytes:

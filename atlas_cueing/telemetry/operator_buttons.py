@@ -10,7 +10,7 @@ BUTTONS = ("engage", "hold", "park", "reset")
 _SIZE = 8 * len(BUTTONS)
 
 
-class Buttons:
+class OperatorButtons:
     """A count of presses for each name of BUTTONS.
 
     One process presses, from any of its threads, and one process reads. A count is written and read as one aligned word, so

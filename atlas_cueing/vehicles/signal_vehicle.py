@@ -36,11 +36,11 @@ from ..signals import STANDARD_GRAVITY, VehicleState
 from .bounds import Bounds
 from .jsbsim.flights import DEFAULT_RATE_HZ, MAX_RATE_HZ, MIN_RATE_HZ
 
-Axis: TypeAlias = Literal["roll_rate", "pitch_rate", "yaw_rate", "force_x", "force_y", "force_z"]
+SignalAxis: TypeAlias = Literal["roll_rate", "pitch_rate", "yaw_rate", "force_x", "force_y", "force_z"]
 Shape: TypeAlias = Literal["sine", "sweep", "step", "doublet"]
 
-RATE_AXES: tuple[Axis, Axis, Axis] = ("roll_rate", "pitch_rate", "yaw_rate")
-FORCE_AXES: tuple[Axis, Axis, Axis] = ("force_x", "force_y", "force_z")
+RATE_AXES: tuple[SignalAxis, SignalAxis, SignalAxis] = ("roll_rate", "pitch_rate", "yaw_rate")
+FORCE_AXES: tuple[SignalAxis, SignalAxis, SignalAxis] = ("force_x", "force_y", "force_z")
 SHAPES: tuple[Shape, ...] = ("sine", "sweep", "step", "doublet")
 DEFAULT_RAMP = 0.25  # s (assumed)
 MIN_STEPS_PER_PERIOD = 8  # of the highest frequency; with fewer a sine is no longer one (assumed)
@@ -62,7 +62,7 @@ class Signal:
     frequency, end_frequency: rad/s; of a sine the first, of a sweep both.
     """
 
-    axis: Axis
+    axis: SignalAxis
     shape: Shape
     amplitude: float
     time: float
@@ -216,7 +216,7 @@ class SignalVehicle:
 _ByAxis: TypeAlias = tuple[list[Signal], list[Signal], list[Signal]]
 
 
-def _of_axes(signals: Sequence[Signal], axes: tuple[Axis, Axis, Axis]) -> _ByAxis:
+def _of_axes(signals: Sequence[Signal], axes: tuple[SignalAxis, SignalAxis, SignalAxis]) -> _ByAxis:
     one, two, three = ([signal for signal in signals if signal.axis == axis] for axis in axes)
     return one, two, three
 

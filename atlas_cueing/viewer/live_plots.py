@@ -36,8 +36,8 @@ class Plots:
 
     def __init__(self, gui: "GuiApi", platform: Platform, *, timing: bool) -> None:
         """`timing` says whether there is a loop to be timed."""
-        self._speed = np.array(platform.wheel_speed_limits().speed)
-        self._travel = np.array(platform.stage_motion_limits().travel)
+        self._speed = np.array(platform.wheel_limit_values().speed)
+        self._travel = np.array(platform.stage_limit_values().travel)
         compared = [*_lines("xyz", ""), *_lines("xyz", " pilot", dash=(4, 3), width=1.0)]
         bounds = [_line("+ limit", _LIMIT, (2, 3)), _line("− limit", _LIMIT, (2, 3))]
         self._force = _plot(gui, "Specific force, m/s²  (rider solid, pilot dashed; cabin x y z)", compared)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..evaluation import Flight
+from ..evaluation import RunColumns
 from ..scenario import Platform
 from .forces import largest_g
 from .live_plots import Plots, Traces
@@ -57,7 +57,7 @@ class PlayHead:
 class PlayPage:
     """Scene, play bar and plots of a log."""
 
-    def __init__(self, server: "ViserServer", platform: Platform, flight: Flight) -> None:
+    def __init__(self, server: "ViserServer", platform: Platform, flight: RunColumns) -> None:
         self._flight, self._motion = flight, RecordedMotion(flight)
         self._points = thinned(flight.time)
         self.head = PlayHead(float(flight.time[0]), float(flight.time[-1]))
@@ -115,7 +115,7 @@ def thinned(time: np.ndarray) -> np.ndarray:
 
 def play(
     platform: Platform,
-    flight: Flight,
+    flight: RunColumns,
     told: Callable[[str], object],
     *,
     port: int = 0,

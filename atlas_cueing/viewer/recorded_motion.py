@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..errors import InputError
-from ..evaluation import Flight
+from ..evaluation import RunColumns
 from .scene import Pose
 from .shapes import Array
 
@@ -11,7 +11,7 @@ from .shapes import Array
 class RecordedMotion:
     """Poses of a flight. Raises InputError when it has no ticks, or numbers in its motion that are none."""
 
-    def __init__(self, flight: Flight) -> None:
+    def __init__(self, flight: RunColumns) -> None:
         if not len(flight.time) or not np.isfinite(np.hstack([flight.motion_q_WS, flight.motion_p_W])).all():
             raise InputError("no motion to show: the log has no ticks, or numbers that are none")
         self._flight = flight

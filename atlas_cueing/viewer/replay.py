@@ -11,7 +11,7 @@ import numpy as np
 
 from ..atomic_file import write_page
 from ..errors import OutputError
-from ..evaluation import Flight
+from ..evaluation import RunColumns
 from ..scenario import Platform
 from .forces import largest_g
 from .recorded_motion import RecordedMotion
@@ -26,7 +26,7 @@ RATE_HZ = 30.0  # frames; film has 24
 MOST_FRAMES = 9000  # of a long flight, which gets fewer a second
 
 
-def write_replay(platform: Platform, flight: Flight, file: str | Path) -> None:
+def write_replay(platform: Platform, flight: RunColumns, file: str | Path) -> None:
     """Write the flight as a 3D replay into `file`: sphere with its cockpit, wheels, stage in its travel.
 
     Raises InputError when viser is not installed or there is no motion to show, OutputError when the file cannot be written.

@@ -50,7 +50,7 @@ class Stage:
 
 def draw_stage(scene: "SceneApi", platform: Platform) -> Stage:
     """Draw it with the sphere's centre at the origin of W; the frame `path` of the result carries sphere and wheels."""
-    radius, travel = platform.sphere.radius_m, platform.stage_motion_limits().travel
+    radius, travel = platform.sphere.radius_m, platform.stage_limit_values().travel
     bridge, carriage, telescope, top = (scene.add_frame(path, show_axes=False) for path in _PATHS)
     beam = _BEAM * radius
     plate = -(radius + 2.0 * max(wheel.radius_m for wheel in platform.wheel) + 0.1 * radius)

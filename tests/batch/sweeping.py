@@ -8,10 +8,10 @@ import pytest
 
 from atlas_cueing.batch import pool as workers
 from atlas_cueing.batch.execute import fly_alone
-from atlas_cueing.batch.job import Limits, Order
-from atlas_cueing.batch.job_result import Record, keep, kept
+from atlas_cueing.batch.job import Job, RunLimits
+from atlas_cueing.batch.job_result import JobResult, keep, kept
 from atlas_cueing.batch.plan import PlannedRun, plan
-from atlas_cueing.batch.store import results_at
+from atlas_cueing.batch.store import open_store
 
 SWEEP = """
 name = "short"
@@ -23,7 +23,7 @@ preset = "atlas-2.9m"
 [sweep]
 cueing.method = ["blend", "attitude", "force", "classical"]
 """
-LIMITS = Limits(time=600.0)
+LIMITS = RunLimits(time=600.0)
 
 # A worker whose runs by `attitude` do something else first.
 _SABOTEUR = """
@@ -31,10 +31,10 @@ import os, signal, sys, time
 from pathlib import Path
 from atlas_cueing.batch import alone, worker
 fly = worker.fly_alone
-def sabotaged(order, desk):
+def sabotaged(order, workdir):
     if "-attitude-" in order.id:
         {deed}
-    return fly(order, desk)
+    return fly(order, workdir)
 worker.fly_alone = sabotaged
 worker.main()
 """
@@ -46,12 +46,12 @@ def planned(folder: Path, *overrides: str, text: str = SWEEP) -> list[PlannedRun
     return plan([folder / "sweep.toml"], overrides)
 
 
-def order(run: PlannedRun, place: Path | str, limits: Limits = LIMITS) -> Order:
+def order(run: PlannedRun, place: Path | str, limits: RunLimits = LIMITS) -> Job:
     """To fly `run` into a folder or to a URL."""
-    return Order.of(run, str(place), limits)
+    return Job.of(run, str(place), limits)
 
 
-def fly_in_line(orders: Iterable[Order], stop: Callable[[], bool]) -> Iterator[Record]:
+def fly_in_line(orders: Iterable[Job], stop: Callable[[], bool]) -> Iterator[JobResult]:
     """The seam's plainest double: into folders, in this process, one after the other."""
     for each in orders:
         if stop():
@@ -61,9 +61,9 @@ def fly_in_line(orders: Iterable[Order], stop: Callable[[], bool]) -> Iterator[R
         yield record
 
 
-def kept_in(place: Path | str, run: str) -> Record | None:
+def kept_in(place: Path | str, run: str) -> JobResult | None:
     """The record that a batch would find there."""
-    return kept([run], results_at(str(place))).get(run)
+    return kept([run], open_store(str(place))).get(run)
 
 
 def sabotage(monkeypatch: pytest.MonkeyPatch, deed: str) -> None:

@@ -15,7 +15,7 @@ import pytest
 from atlas_cueing.batch import cluster as cluster_module
 from atlas_cueing.batch import fly_batch, fly_here, on_cluster
 from atlas_cueing.batch.cluster import LOCAL, fly_order
-from atlas_cueing.batch.folder_store import FolderResults
+from atlas_cueing.batch.folder_store import FolderStore
 from atlas_cueing.errors import InputError
 
 from .sweeping import LIMITS, order, planned
@@ -38,9 +38,9 @@ def address() -> Iterator[str]:
 def test_the_same_bytes_as_without_a_cluster(tmp_path: Path, address: str) -> None:
     runs = planned(tmp_path)
     with on_cluster(address, 2) as fly:
-        outcomes = fly_batch(runs, FolderResults(tmp_path / "cluster"), fly, LIMITS)
+        outcomes = fly_batch(runs, FolderStore(tmp_path / "cluster"), fly, LIMITS)
     assert all(outcome.record and outcome.record.clean for outcome in outcomes)
-    fly_batch(runs, FolderResults(tmp_path / "here"), lambda orders, stop: fly_here(orders, 1, stop), LIMITS)
+    fly_batch(runs, FolderStore(tmp_path / "here"), lambda orders, stop: fly_here(orders, 1, stop), LIMITS)
     assert hashes(tmp_path / "cluster") == hashes(tmp_path / "here")
     assert len(hashes(tmp_path / "here")) == 4
 

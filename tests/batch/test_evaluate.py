@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from atlas_cueing.evaluation import BLOCK_TICKS, Flight, consistency, limit_use, metrics
+from atlas_cueing.evaluation import BLOCK_TICKS, RunColumns, consistency, limit_use, metrics
 from atlas_cueing.recording import Log, McapRecorder, read_log
-from atlas_cueing.review import review
-from atlas_cueing.run import Evaluator, evaluate
+from atlas_cueing.review import review_log
+from atlas_cueing.run import Evaluator, evaluate_log
 from atlas_cueing.run.fly import run_scenario
 from atlas_cueing.scenario import Scenario, load_platform
 from atlas_cueing.signals import LIVE_TOPICS, TOPICS
@@ -24,7 +24,7 @@ LONG = 2 * BLOCK_TICKS + 1234  # ticks
 def test_the_log_alone_gives_the_figures_of_the_run(load: Load, tmp_path: Path, chunk: int) -> None:
     scenario = load(f"recording.chunk_ticks={chunk}")
     result = run_scenario(scenario, tmp_path / "log.mcap")
-    again = evaluate(result.log, scenario.platform)
+    again = evaluate_log(result.log, scenario.platform)
     assert again == result.evaluation
     assert again.violations == ()
     assert 0.0 < again.limit_use["wheel_speed_logged"] < 1.0
@@ -34,14 +34,14 @@ def test_a_weaker_platform_would_have_been_violated(load: Load, tmp_path: Path) 
     """The same log against a tenth of the limits: the check can fail."""
     log = run_scenario(load(), tmp_path / "log.mcap").log
     weaker = load("platform.wheel_limits.jerk_rad_s3=0.001", "platform.stage_limits.travel_m=0.00001").platform
-    found = evaluate(log, weaker).violations
+    found = evaluate_log(log, weaker).violations
     assert any(line.startswith("wheel_jerk_difference") for line in found)
     assert any(line.startswith("stage_travel_logged") for line in found)
 
 
 def test_the_wheels_of_another_platform_do_not_fit(load: Load, tmp_path: Path) -> None:
     log = run_scenario(load("vehicle.script=c172_elevator_doublet", "duration_s=5"), tmp_path / "log.mcap").log
-    right, wrong = (evaluate(log, load_platform(name)).metrics for name in ("atlas-2.9m", "atlas-orthogonal"))
+    right, wrong = (evaluate_log(log, load_platform(name)).metrics for name in ("atlas-2.9m", "atlas-orthogonal"))
     assert right["wheel_speed_mismatch_max_rad_s"] < 1e-12
     assert wrong["wheel_speed_mismatch_max_rad_s"] > 0.01
     assert wrong["orientation_drift_max_rad"] > 10.0 * right["orientation_drift_max_rad"]
@@ -49,7 +49,7 @@ def test_the_wheels_of_another_platform_do_not_fit(load: Load, tmp_path: Path) -
 
 def test_a_log_that_cannot_be_read_is_a_finding(load: Load, tmp_path: Path) -> None:
     (tmp_path / "log.mcap").write_bytes(b"no log")
-    evaluation = evaluate(tmp_path / "log.mcap", load().platform)
+    evaluation = evaluate_log(tmp_path / "log.mcap", load().platform)
     assert len(evaluation.violations) == 1
     assert evaluation.violations[0].startswith("not evaluated: ")
     assert evaluation.metrics == {}
@@ -92,8 +92,8 @@ def long_log(load: Load, tmp_path: Path) -> Callable[[int], tuple[Scenario, Path
 @pytest.mark.parametrize(("ticks", "chunk"), [(500, 7), (BLOCK_TICKS, 512), (LONG, 512), (LONG, 16384), (2 * BLOCK_TICKS, 100)])
 def test_run_and_review_agree_to_the_last_bit(long_log: Callable[[int], tuple[Scenario, Path]], ticks: int, chunk: int) -> None:
     scenario, log = long_log(ticks)
-    found, reviewed = evaluated(numbers(read_log(log)), scenario, chunk).evaluation(), review(log)
-    assert found == evaluate(log, scenario.platform)
+    found, reviewed = evaluated(numbers(read_log(log)), scenario, chunk).evaluation(), review_log(log)
+    assert found == evaluate_log(log, scenario.platform)
     assert found.metrics["ticks"] == ticks
     assert reviewed.metrics == found.metrics
     assert len(reviewed.metrics) > 110
@@ -103,11 +103,11 @@ def test_the_figures_in_blocks_are_those_of_the_whole(long_log: Callable[[int], 
     """And all of them are there."""
     scenario, log = long_log(LONG)
     platform, geometry = scenario.platform, scenario.platform.geometry()
-    found, flight = evaluate(log, platform), Flight.of(read_log(log))
+    found, flight = evaluate_log(log, platform), RunColumns.of(read_log(log))
     expected = metrics(flight) | consistency(flight, geometry.wheels_from_sphere, geometry.sphere_from_wheels)
     assert found.metrics == expected
     assert list(found.metrics) == list(expected)
-    assert found.limit_use == limit_use(flight, platform.wheel_speed_limits(), platform.stage_motion_limits())
+    assert found.limit_use == limit_use(flight, platform.wheel_limit_values(), platform.stage_limit_values())
 
 
 def test_a_live_log_is_judged_where_it_was_running(load: Load, tmp_path: Path) -> None:
@@ -130,24 +130,24 @@ def test_a_live_log_is_judged_where_it_was_running(load: Load, tmp_path: Path) -
         recorder.status(at, state, "")
     recorder.append_live(rows.tobytes())
     recorder.close("ok", "")
-    found = evaluate(log, scenario.platform)
+    found = evaluate_log(log, scenario.platform)
     assert (found.metrics["ticks"], found.metrics["wheel_speed_max_rad_s"]) == (8000.0, 0.5)
     assert found.metrics["wheel_speed_mismatch_max_rad_s"] == 7.0
-    assert found.limit_use["wheel_speed_logged"] == 7.0 / scenario.platform.wheel_speed_limits().speed[0]
-    assert review(log).metrics == found.metrics
+    assert found.limit_use["wheel_speed_logged"] == 7.0 / scenario.platform.wheel_limit_values().speed[0]
+    assert review_log(log).metrics == found.metrics
 
 
 def test_a_log_that_breaks_off_has_no_figures(long_log: Callable[[int], tuple[Scenario, Path]]) -> None:
     scenario, log = long_log(500)
     log.write_bytes(log.read_bytes()[:-100])
-    evaluation = evaluate(log, scenario.platform)
+    evaluation = evaluate_log(log, scenario.platform)
     assert (evaluation.metrics, evaluation.limit_use, len(evaluation.violations)) == ({}, {}, 1)
 
 
 def test_a_log_without_ticks(load: Load, tmp_path: Path) -> None:
     scenario, log = load(), tmp_path / "none.mcap"
     McapRecorder(log, head_S=(0.0, 0.0, 0.0), metadata={}, attachments={}).close("ok", "")
-    evaluation = evaluate(log, scenario.platform)
+    evaluation = evaluate_log(log, scenario.platform)
     assert set(evaluation.metrics.values()) == set(evaluation.limit_use.values()) == {0.0}
     assert Evaluator(scenario.platform).evaluation() == evaluation
 
@@ -155,7 +155,7 @@ def test_a_log_without_ticks(load: Load, tmp_path: Path) -> None:
 def test_a_log_without_a_topic_is_told(load: Load, tmp_path: Path) -> None:
     log = tmp_path / "log.mcap"
     McapRecorder(log, head_S=(0.0, 0.0, 0.0), metadata={}, attachments={}, skip_topics=("/felt",)).close("ok", "")
-    found = evaluate(log, load().platform)
+    found = evaluate_log(log, load().platform)
     assert found.metrics == {}
     assert "the log has no topic '/felt'; topics: /vehicle, /cue, /motion, /wheels" in found.violations[0]
 

@@ -8,8 +8,8 @@ import pytest
 
 from atlas_cueing.batch import execute as alone
 from atlas_cueing.batch.execute import fly_alone, left_by
-from atlas_cueing.batch.job import Limits, Order
-from atlas_cueing.batch.job_result import Record
+from atlas_cueing.batch.job import Job, RunLimits
+from atlas_cueing.batch.job_result import JobResult
 from atlas_cueing.errors import OutputError
 from atlas_cueing.run import run_scenario
 
@@ -42,12 +42,12 @@ def test_a_model_that_goes_wild(tmp_path: Path) -> None:
     assert record.ticks > 10
 
 
-def broken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: Exception) -> Record:
+def broken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: Exception) -> JobResult:
     def fail(*_: object) -> None:
         raise error
 
     monkeypatch.setattr(alone, "run_scenario", fail)
-    return fly_alone(order(planned(tmp_path)[0], tmp_path, Limits(memory=3.0)), tmp_path)
+    return fly_alone(order(planned(tmp_path)[0], tmp_path, RunLimits(memory=3.0)), tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -82,11 +82,11 @@ def test_a_folder_that_is_gone(tmp_path: Path) -> None:
 
 
 def test_a_scenario_that_the_worker_cannot_read_is_a_failure_of_that_run(tmp_path: Path) -> None:
-    assert fly_alone(Order("r", str(tmp_path), {"scenario.toml": "["}, Limits()), tmp_path).result == "vehicle_failed"
+    assert fly_alone(Job("r", str(tmp_path), {"scenario.toml": "["}, RunLimits()), tmp_path).result == "vehicle_failed"
 
 
 def test_a_log_that_was_left_is_named(tmp_path: Path) -> None:
-    sent = Order("r", str(tmp_path), {}, Limits())
+    sent = Job("r", str(tmp_path), {}, RunLimits())
     assert left_by(sent, tmp_path) == ""
     (tmp_path / "r.mcap").touch()
     assert left_by(sent, tmp_path) == "r.mcap"

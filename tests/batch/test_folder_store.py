@@ -2,12 +2,12 @@ from pathlib import Path
 
 import pytest
 
-from atlas_cueing.batch.folder_store import LOCK, FolderResults
+from atlas_cueing.batch.folder_store import LOCK, FolderStore
 from atlas_cueing.errors import OutputError
 
 
 def test_a_folder_is_made_when_needed(tmp_path: Path) -> None:
-    results = FolderResults(tmp_path / "new")
+    results = FolderStore(tmp_path / "new")
     results.check()
     assert results.names() == set()
     assert list(tmp_path.iterdir()) == []
@@ -16,7 +16,7 @@ def test_a_folder_is_made_when_needed(tmp_path: Path) -> None:
 
 
 def test_one_batch_at_a_time(tmp_path: Path) -> None:
-    results = FolderResults(tmp_path)
+    results = FolderStore(tmp_path)
     with results.opened(), pytest.raises(OutputError, match="another batch is at work"), results.opened():
         pytest.fail("two batches in one folder")
     with results.opened():
@@ -26,23 +26,23 @@ def test_one_batch_at_a_time(tmp_path: Path) -> None:
 def test_what_can_never_be_a_folder_of_results(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with pytest.raises(OutputError, match="is no folder"):
-        FolderResults(tmp_path / "file").check()
+        FolderStore(tmp_path / "file").check()
     with pytest.raises(OutputError, match="is no folder"):
-        FolderResults(tmp_path / "file" / "deeper").check()
+        FolderStore(tmp_path / "file" / "deeper").check()
     with pytest.raises(OutputError, match="is missing"):
-        FolderResults(tmp_path / "missing" / "deeper").check()
+        FolderStore(tmp_path / "missing" / "deeper").check()
     with pytest.raises(OutputError, match="File name too long"):
-        FolderResults(tmp_path / ("x" * 300)).check()
+        FolderStore(tmp_path / ("x" * 300)).check()
 
 
 def test_a_folder_that_cannot_be_written_to(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("os.access", lambda _path, _mode: False)
     with pytest.raises(OutputError, match="cannot be written to"):
-        FolderResults(tmp_path).check()
+        FolderStore(tmp_path).check()
 
 
 def test_a_file_is_replaced_as_a_whole(tmp_path: Path) -> None:
-    results = FolderResults(tmp_path)
+    results = FolderStore(tmp_path)
     results.write("a", b"1")
     before = (tmp_path / "a").open("rb")
     results.write("a", b"22")
@@ -53,14 +53,14 @@ def test_a_file_is_replaced_as_a_whole(tmp_path: Path) -> None:
 
 
 def test_runs_write_into_the_folder_itself(tmp_path: Path) -> None:
-    results = FolderResults(tmp_path / "new")
-    assert results.desk(tmp_path / "scratch") == tmp_path / "new"
+    results = FolderStore(tmp_path / "new")
+    assert results.workdir(tmp_path / "scratch") == tmp_path / "new"
     assert results.fetch("a", tmp_path / "scratch") == tmp_path / "new" / "a"
 
 
 def test_workers_are_told_an_absolute_path_and_people_their_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    results = FolderResults(Path("new"))
+    results = FolderStore(Path("new"))
     assert (results.place, results.title) == (str(tmp_path / "new"), "new")
     assert (results.where(), results.where("a")) == ("new", "new/a")
-    assert FolderResults(Path()).title == tmp_path.name
+    assert FolderStore(Path()).title == tmp_path.name

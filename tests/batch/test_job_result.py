@@ -4,12 +4,12 @@ from pathlib import Path
 
 import pytest
 
-from atlas_cueing.batch.folder_store import FolderResults
-from atlas_cueing.batch.job_result import FINAL, Record, keep, kept
+from atlas_cueing.batch.folder_store import FolderStore
+from atlas_cueing.batch.job_result import FINAL, JobResult, keep, kept
 
 from .sweeping import kept_in
 
-RECORD = Record("r", "ok", "", "r.mcap", 12, 0.1, 0.5, ("wheel_speed = 2",), {"force_rms_m_s2": 1 / 3}, {"wheel_speed": 2.0})
+RECORD = JobResult("r", "ok", "", "r.mcap", 12, 0.1, 0.5, ("wheel_speed = 2",), {"force_rms_m_s2": 1 / 3}, {"wheel_speed": 2.0})
 
 
 def test_what_is_kept_comes_back(tmp_path: Path) -> None:
@@ -22,7 +22,7 @@ def test_what_is_kept_comes_back(tmp_path: Path) -> None:
 
 
 def test_figures_that_are_no_numbers_are_null(tmp_path: Path) -> None:
-    keep(Record("r", "ok", metrics={"a": inf, "b": float("nan")}), tmp_path)
+    keep(JobResult("r", "ok", metrics={"a": inf, "b": float("nan")}), tmp_path)
     assert json.loads((tmp_path / "r.json").read_text())["metrics"] == {"a": None, "b": None}
     back = kept_in(tmp_path, "r")
     assert back
@@ -48,26 +48,26 @@ def test_a_record_without_its_log_or_of_another_run_is_none(tmp_path: Path) -> N
 
 def test_only_what_would_end_the_same_is_final(tmp_path: Path) -> None:
     for result in (*FINAL, "recording_failed", "worker_lost", "worker_differs", "interrupted"):
-        keep(Record("r", result), tmp_path)
+        keep(JobResult("r", result), tmp_path)
         assert (kept_in(tmp_path, "r") is not None) == (result in FINAL)
 
 
 def test_clean_is_ok_within_all_limits() -> None:
     assert not RECORD.clean
-    assert Record("r", "ok").clean
-    assert not Record("r", "vehicle_failed").clean
+    assert JobResult("r", "ok").clean
+    assert not JobResult("r", "vehicle_failed").clean
 
 
 def test_only_runs_that_are_asked_for_are_read(tmp_path: Path) -> None:
-    keep(Record("r", "ok"), tmp_path)
+    keep(JobResult("r", "ok"), tmp_path)
     (tmp_path / "summary.json").write_text("mine")
-    assert kept(["r", "s"], FolderResults(tmp_path)) == {"r": Record("r", "ok")}
-    assert kept([], FolderResults(tmp_path)) == {}
-    assert kept(["r"], FolderResults(tmp_path / "not_made_yet")) == {}
+    assert kept(["r", "s"], FolderStore(tmp_path)) == {"r": JobResult("r", "ok")}
+    assert kept([], FolderStore(tmp_path)) == {}
+    assert kept(["r"], FolderStore(tmp_path / "not_made_yet")) == {}
 
 
 def test_a_log_elsewhere_is_no_log_of_this_batch(tmp_path: Path) -> None:
     (tmp_path / "elsewhere.mcap").touch()
     (tmp_path / "here").mkdir()
-    keep(Record("r", "ok", log="../elsewhere.mcap"), tmp_path / "here")
+    keep(JobResult("r", "ok", log="../elsewhere.mcap"), tmp_path / "here")
     assert kept_in(tmp_path / "here", "r") is None

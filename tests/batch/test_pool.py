@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from atlas_cueing.batch import pool as workers
-from atlas_cueing.batch.job_result import Record, keep
+from atlas_cueing.batch.job_result import JobResult, keep
 from atlas_cueing.batch.pool import Worker, fly_here
 
 from .sweeping import order, planned, sabotage
@@ -90,6 +90,6 @@ def test_two_workers_at_the_same_run(tmp_path: Path, monkeypatch: pytest.MonkeyP
 
 def test_what_had_to_be_killed_is_flown_when_it_is_ordered(tmp_path: Path) -> None:
     run = planned(tmp_path)[0]
-    keep(Record(run.id, "timed_out"), tmp_path)
+    keep(JobResult(run.id, "timed_out"), tmp_path)
     (record,) = fly_here([order(run, tmp_path)], 1)
     assert record.result == "ok"

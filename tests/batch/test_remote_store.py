@@ -11,10 +11,10 @@ from fsspec.implementations.memory import MemoryFileSystem
 from atlas_cueing.batch import fly_batch, fly_here, missing
 from atlas_cueing.batch import pool as workers
 from atlas_cueing.batch import remote_store as remote
-from atlas_cueing.batch.folder_store import FolderResults
-from atlas_cueing.batch.isolation import Ended
-from atlas_cueing.batch.job_result import Record, keep, kept
-from atlas_cueing.batch.remote_store import RemoteResults
+from atlas_cueing.batch.folder_store import FolderStore
+from atlas_cueing.batch.isolation import ChildExit
+from atlas_cueing.batch.job_result import JobResult, keep, kept
+from atlas_cueing.batch.remote_store import RemoteStore
 from atlas_cueing.batch.worker_main import _deliver
 from atlas_cueing.errors import InputError, OutputError
 
@@ -25,16 +25,16 @@ WHERE = "memory://results"
 
 
 @pytest.fixture
-def results() -> Iterator[RemoteResults]:
+def results() -> Iterator[RemoteStore]:
     """An empty place in memory."""
     MemoryFileSystem.store.clear()
     MemoryFileSystem.pseudo_dirs[:] = [""]
-    yield RemoteResults(WHERE)
+    yield RemoteStore(WHERE)
     MemoryFileSystem.store.clear()
     MemoryFileSystem.pseudo_dirs[:] = [""]
 
 
-def test_a_file_written_is_there_whole_and_alone(results: RemoteResults) -> None:
+def test_a_file_written_is_there_whole_and_alone(results: RemoteStore) -> None:
     assert results.names() == set()
     results.write("a", b"1")
     results.write("b", b"2")
@@ -45,7 +45,7 @@ def test_a_file_written_is_there_whole_and_alone(results: RemoteResults) -> None
     assert results.read([]) == {}
 
 
-def test_opening_proves_that_files_can_be_written_and_leaves_none(results: RemoteResults) -> None:
+def test_opening_proves_that_files_can_be_written_and_leaves_none(results: RemoteStore) -> None:
     with results.opened():
         assert results.names() == set()
         assert MemoryFileSystem().isdir("/results")
@@ -63,19 +63,19 @@ class Deaf(MemoryFileSystem):  # type: ignore[misc]
         raise ConnectionError("cut")
 
 
-def deaf(results: RemoteResults) -> RemoteResults:
+def deaf(results: RemoteStore) -> RemoteStore:
     results.__dict__["_driver"] = (Deaf(), "/results")
     return results
 
 
-def test_a_place_that_takes_no_files_is_found_out_when_it_is_opened(results: RemoteResults) -> None:
+def test_a_place_that_takes_no_files_is_found_out_when_it_is_opened(results: RemoteStore) -> None:
     with pytest.raises(OutputError, match=r"memory://results: PermissionError: denied"), deaf(results).opened():
         pytest.fail("it can be written to")
 
 
-def test_what_breaks_off_is_never_taken_for_a_finished_log(results: RemoteResults, tmp_path: Path) -> None:
+def test_what_breaks_off_is_never_taken_for_a_finished_log(results: RemoteStore, tmp_path: Path) -> None:
     (tmp_path / "r.mcap").write_bytes(b"log")
-    keep(Record("r", "ok", log="r.mcap"), tmp_path)
+    keep(JobResult("r", "ok", log="r.mcap"), tmp_path)
     told = deaf(results)._upload(tmp_path, ["r.mcap", "r.json"])
     assert told == b"memory://results: ConnectionError: cut"
     assert results.names() == set()
@@ -83,7 +83,7 @@ def test_what_breaks_off_is_never_taken_for_a_finished_log(results: RemoteResult
 
 
 def test_while_it_is_uploaded_it_has_another_name(
-    results: RemoteResults, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    results: RemoteStore, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Also of every upload another one, so that two never write into the same file."""
     seen: list[str] = []
@@ -97,8 +97,8 @@ def test_while_it_is_uploaded_it_has_another_name(
     assert results.read(results.names()) == {"r.mcap": b"log"}
 
 
-def test_a_record_there_without_its_log_is_flown_again(results: RemoteResults, tmp_path: Path) -> None:
-    record = Record("r", "ok", log="r.mcap")
+def test_a_record_there_without_its_log_is_flown_again(results: RemoteStore, tmp_path: Path) -> None:
+    record = JobResult("r", "ok", log="r.mcap")
     keep(record, tmp_path)
     results.write("r.json", (tmp_path / "r.json").read_bytes())
     assert kept(["r"], results) == {}
@@ -106,26 +106,26 @@ def test_a_record_there_without_its_log_is_flown_again(results: RemoteResults, t
     assert kept(["r", "s"], results) == {"r": record}
 
 
-def test_the_record_is_uploaded_last(results: RemoteResults, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_record_is_uploaded_last(results: RemoteStore, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     uploaded: list[str] = []
     monkeypatch.setattr(results, "deliver", lambda _, names: uploaded.extend(names))
-    _deliver(Record("r", "ok", log="r.mcap"), tmp_path, results)
-    _deliver(Record("s", "vehicle_failed"), tmp_path, results)
+    _deliver(JobResult("r", "ok", log="r.mcap"), tmp_path, results)
+    _deliver(JobResult("s", "vehicle_failed"), tmp_path, results)
     assert uploaded == ["r.mcap", "r.json", "s.json"]
 
 
 @pytest.mark.parametrize(
     ("ended", "message"),
     [
-        (Ended(b"", -9, "", late=True), "upload not over after 3600 s"),
-        (Ended(b"", -11, "", late=False), "upload ended by SIGSEGV"),
-        (Ended(b"s3://a: denied", 0, "", late=False), "s3://a: denied"),
+        (ChildExit(b"", -9, "", late=True), "upload not over after 3600 s"),
+        (ChildExit(b"", -11, "", late=False), "upload ended by SIGSEGV"),
+        (ChildExit(b"s3://a: denied", 0, "", late=False), "s3://a: denied"),
     ],
 )
-def test_an_upload_that_fails_says_how(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ended: Ended, message: str) -> None:
+def test_an_upload_that_fails_says_how(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ended: ChildExit, message: str) -> None:
     monkeypatch.setattr(remote, "in_child", lambda _work, _limit: ended)
     with pytest.raises(OutputError, match=message):
-        RemoteResults(WHERE).deliver(tmp_path, ["r.mcap"])
+        RemoteStore(WHERE).deliver(tmp_path, ["r.mcap"])
 
 
 def test_a_run_that_cannot_be_uploaded_is_flown_again(tmp_path: Path) -> None:
@@ -135,15 +135,15 @@ def test_a_run_that_cannot_be_uploaded_is_flown_again(tmp_path: Path) -> None:
     assert f"file://{tmp_path}/not_made: FileNotFoundError" in record.reason
 
 
-def test_a_file_comes_back_for_its_review(results: RemoteResults, tmp_path: Path) -> None:
+def test_a_file_comes_back_for_its_review(results: RemoteStore, tmp_path: Path) -> None:
     results.write("r.mcap", b"log")
     assert results.fetch("r.mcap", tmp_path).read_bytes() == b"log"
-    assert results.desk(tmp_path) == tmp_path
+    assert results.workdir(tmp_path) == tmp_path
     with pytest.raises(OutputError, match="FileNotFoundError"):
         results.fetch("s.mcap", tmp_path)
 
 
-def test_a_host_that_fails_is_told(results: RemoteResults, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_host_that_fails_is_told(results: RemoteStore, monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: object, **__: object) -> None:
         raise ConnectionError("no route")
 
@@ -170,18 +170,18 @@ def test_a_host_that_fails_is_told(results: RemoteResults, monkeypatch: pytest.M
 )
 def test_what_is_no_place_for_results(url: str, message: str) -> None:
     with pytest.raises(InputError, match=message):
-        RemoteResults(url).check()
+        RemoteStore(url).check()
 
 
 def test_a_file_in_the_way(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with pytest.raises(OutputError, match="is no folder"):
-        RemoteResults(f"file://{tmp_path}/file").check()
-    RemoteResults(f"file://{tmp_path}/new").check()
+        RemoteStore(f"file://{tmp_path}/file").check()
+    RemoteStore(f"file://{tmp_path}/new").check()
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
     with (
         pytest.raises(OutputError, match=r"FileNotFoundError.*no/such"),
-        RemoteResults(f"file://{tmp_path}/no/such").opened(),
+        RemoteStore(f"file://{tmp_path}/no/such").opened(),
     ):
         pytest.fail("it was made with all above it")
 
@@ -189,14 +189,14 @@ def test_a_file_in_the_way(tmp_path: Path) -> None:
 def test_without_fsspec_or_its_driver(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "s3fs", None)
     with pytest.raises(InputError, match=r"-o s3://bucket/a: its driver is missing: Install s3fs"):
-        RemoteResults("s3://bucket/a").check()
+        RemoteStore("s3://bucket/a").check()
     monkeypatch.setitem(sys.modules, "fsspec.core", None)
     with pytest.raises(InputError, match=r"-o s3://bucket/a: a URL needs fsspec; .* install 'atlas_cueing\[cluster\]'"):
-        RemoteResults("s3://bucket/a").check()
+        RemoteStore("s3://bucket/a").check()
 
 
 def test_a_password_is_for_the_driver_only() -> None:
-    results = RemoteResults("ftp://me:secret@host/folder/")
+    results = RemoteStore("ftp://me:secret@host/folder/")
     assert results.place == "ftp://me:secret@host/folder"
     assert (results.where(), results.where("a"), results.title) == ("ftp://host/folder", "ftp://host/folder/a", "folder")
 
@@ -205,10 +205,10 @@ def test_workers_upload_the_same_bytes_and_leave_nothing_behind(tmp_path: Path, 
     (tmp_path / "scratch").mkdir()
     monkeypatch.setenv("TMPDIR", str(tmp_path / "scratch"))
     runs = planned(tmp_path)
-    there = RemoteResults(f"file://{tmp_path}/there")
+    there = RemoteStore(f"file://{tmp_path}/there")
     outcomes = fly_batch(runs, there, lambda orders, stop: fly_here(orders, 2, stop), LIMITS)
     assert all(outcome.record and outcome.record.clean for outcome in outcomes)
-    fly_batch(runs, FolderResults(tmp_path / "here"), lambda orders, stop: fly_here(orders, 2, stop), LIMITS)
+    fly_batch(runs, FolderStore(tmp_path / "here"), lambda orders, stop: fly_here(orders, 2, stop), LIMITS)
     assert hashes(tmp_path / "there") == hashes(tmp_path / "here")
     assert there.names() == {f"{run.id}{ending}" for run in runs for ending in (".mcap", ".json")}
     assert not list((tmp_path / "scratch").iterdir())
@@ -219,13 +219,13 @@ def test_workers_upload_the_same_bytes_and_leave_nothing_behind(tmp_path: Path, 
 
 def test_what_a_killed_run_recorded_is_uploaded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     deed = (
-        "import tempfile; (Path(tempfile.gettempdir()) / 'mine').touch(); (desk / f'{order.id}.mcap.part').touch(); os.abort()"
+        "import tempfile; (Path(tempfile.gettempdir()) / 'mine').touch(); (workdir / f'{order.id}.mcap.part').touch(); os.abort()"
     )
     sabotage(monkeypatch, deed)
     (tmp_path / "scratch").mkdir()
     monkeypatch.setenv("TMPDIR", str(tmp_path / "scratch"))
     runs = planned(tmp_path, 'sweep.cueing.method=["attitude"]')
-    there = RemoteResults(f"file://{tmp_path}/there")
+    there = RemoteStore(f"file://{tmp_path}/there")
     (outcome,) = fly_batch(runs, there, lambda orders, stop: fly_here(orders, 1, stop), LIMITS)
     assert outcome.record
     assert (outcome.record.result, outcome.record.log) == ("crashed", f"{runs[0].id}.mcap.part")
@@ -239,7 +239,7 @@ def test_a_worker_never_has_a_driver_of_its_own(tmp_path: Path, monkeypatch: pyt
     code = f"import os, sys; from atlas_cueing.batch import worker; {seen}; worker.main()"
     monkeypatch.setattr(workers, "_COMMAND", (sys.executable, "-c", code))
     outcomes = fly_batch(
-        planned(tmp_path), RemoteResults(f"file://{tmp_path}/there"), lambda orders, stop: fly_here(orders, 1, stop), LIMITS
+        planned(tmp_path), RemoteStore(f"file://{tmp_path}/there"), lambda orders, stop: fly_here(orders, 1, stop), LIMITS
     )
     assert [outcome.record and outcome.record.result for outcome in outcomes] == ["ok"] * 4
     assert not (tmp_path / "seen").exists()

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from atlas_cueing.batch.execute import fly_alone
 from atlas_cueing.batch.fly_batch import Outcome
-from atlas_cueing.batch.job_result import Record
+from atlas_cueing.batch.job_result import JobResult
 from atlas_cueing.batch.table import columns, csv_of, metric_names, ordered, rows
 
 from .sweeping import order, planned
@@ -16,9 +16,9 @@ METRIC = "force_rms_m_s2"
 def outcomes(folder: Path) -> list[Outcome]:
     blend, attitude, force, classical = planned(folder)
     return [
-        Outcome(blend, Record(blend.id, "ok", "", "b.mcap", 31, 0.25, 0.1, ("x",), {METRIC: 2.0}, {"wheel_speed": 0.5})),
-        Outcome(attitude, Record(attitude.id, "ok", "", "a.mcap", 31, 0.25, 0.1, (), {METRIC: 1.0})),
-        Outcome(force, Record(force.id, "vehicle_failed", 'it said "no",\ntwice', metrics={METRIC: 0.0})),
+        Outcome(blend, JobResult(blend.id, "ok", "", "b.mcap", 31, 0.25, 0.1, ("x",), {METRIC: 2.0}, {"wheel_speed": 0.5})),
+        Outcome(attitude, JobResult(attitude.id, "ok", "", "a.mcap", 31, 0.25, 0.1, (), {METRIC: 1.0})),
+        Outcome(force, JobResult(force.id, "vehicle_failed", 'it said "no",\ntwice', metrics={METRIC: 0.0})),
         Outcome(classical, None),
     ]
 

@@ -12,16 +12,16 @@ import pytest
 from waiting import until
 
 from atlas_cueing.batch import pool as workers
-from atlas_cueing.batch.folder_store import FolderResults
-from atlas_cueing.batch.job import Limits, Order
-from atlas_cueing.batch.job_result import Record
+from atlas_cueing.batch.folder_store import FolderStore
+from atlas_cueing.batch.job import Job, RunLimits
+from atlas_cueing.batch.job_result import JobResult
 
 from .sweeping import LIMITS, kept_in, order, planned, sabotage
 
 METHODS = ("blend", "attitude")
 
 
-def told(orders: list[Order]) -> list[Record]:
+def told(orders: list[Job]) -> list[JobResult]:
     """What a worker of the present command says to the orders."""
     process = subprocess.Popen(workers._COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     assert process.stdin
@@ -30,13 +30,13 @@ def told(orders: list[Order]) -> list[Record]:
     for each in orders:
         process.stdin.write(each.to_line())
         process.stdin.flush()
-        records.append(Record.from_json(json.loads(process.stdout.readline())))
+        records.append(JobResult.from_json(json.loads(process.stdout.readline())))
     assert process.communicate(timeout=60) == (b"", None)
     assert process.returncode == 0
     return records
 
 
-def orders(folder: Path, limits: Limits) -> list[Order]:
+def orders(folder: Path, limits: RunLimits) -> list[Job]:
     """A run that comes to harm under `sabotage`, and one that does not, after it in the same worker."""
     first, second, *_ = planned(folder)
     return [order(second, folder, limits), order(first, folder, replace(limits, time=LIMITS.time))]
@@ -45,21 +45,21 @@ def orders(folder: Path, limits: Limits) -> list[Order]:
 @pytest.mark.parametrize(
     ("deed", "limits", "result", "reason"),
     [
-        ("os.kill(os.getpid(), signal.SIGSEGV)", Limits(), "crashed", "ended by SIGSEGV"),
+        ("os.kill(os.getpid(), signal.SIGSEGV)", RunLimits(), "crashed", "ended by SIGSEGV"),
         (
             "os.write(2, b'free(): invalid pointer'); os.abort()",
-            Limits(),
+            RunLimits(),
             "crashed",
             "ended by SIGABRT: free(): invalid pointer",
         ),
-        ("os._exit(3)", Limits(), "crashed", "ended with exit status 3"),
-        ("print('{}', flush=True); time.sleep(600)", Limits(time=1.0), "timed_out", "not over after 1 s"),
-        ("bytearray(2 * 10**9)", Limits(memory=1.0), "out_of_memory", "needs more than 1 GB: ended with exit status 1"),
+        ("os._exit(3)", RunLimits(), "crashed", "ended with exit status 3"),
+        ("print('{}', flush=True); time.sleep(600)", RunLimits(time=1.0), "timed_out", "not over after 1 s"),
+        ("bytearray(2 * 10**9)", RunLimits(memory=1.0), "out_of_memory", "needs more than 1 GB: ended with exit status 1"),
         (
-            "alone.run_scenario = lambda *_: bytearray(2 * 10**9); return fly(order, desk)".replace(
+            "alone.run_scenario = lambda *_: bytearray(2 * 10**9); return fly(order, workdir)".replace(
                 "; return", "\n        return"
             ),
-            Limits(memory=1.0),
+            RunLimits(memory=1.0),
             "out_of_memory",
             "needs more than 1 GB",
         ),
@@ -67,7 +67,7 @@ def orders(folder: Path, limits: Limits) -> list[Order]:
     ids=["signal", "abort", "exit", "hang", "memory", "memory-in-run"],
 )
 def test_one_runs_harm_is_no_others(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, deed: str, limits: Limits, result: str, reason: str
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, deed: str, limits: RunLimits, result: str, reason: str
 ) -> None:
     sabotage(monkeypatch, deed)
     harmed, sound = told(orders(tmp_path, limits))
@@ -79,7 +79,7 @@ def test_one_runs_harm_is_no_others(
 
 def test_what_a_killed_run_recorded_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     sabotage(monkeypatch, "(Path(order.place) / f'{order.id}.mcap.part').touch(); os.abort()")
-    harmed, _ = told(orders(tmp_path, Limits()))
+    harmed, _ = told(orders(tmp_path, RunLimits()))
     assert harmed.log == f"{harmed.id}.mcap.part"
 
 
@@ -87,21 +87,21 @@ def test_the_real_command_from_a_folder_of_strange_modules(tmp_path: Path, monke
     """Nothing in the working directory is imported, nor gets printed text among the records."""
     (tmp_path / "json.py").write_text("raise SystemExit('the wrong json')")
     monkeypatch.chdir(tmp_path)
-    assert [record.result for record in told(orders(tmp_path, Limits()))] == ["ok", "ok"]
+    assert [record.result for record in told(orders(tmp_path, RunLimits()))] == ["ok", "ok"]
 
 
 def test_what_a_library_prints_in_the_worker_is_no_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     noisy = "os.register_at_fork(before=lambda: os.write(1, b'noise'))"
     code = f"import os; from atlas_cueing.batch import worker; {noisy}; worker.main()"
     monkeypatch.setattr(workers, "_COMMAND", (sys.executable, "-c", code))
-    assert [record.result for record in told(orders(tmp_path, Limits()))] == ["ok", "ok"]
+    assert [record.result for record in told(orders(tmp_path, RunLimits()))] == ["ok", "ok"]
 
 
 def test_when_the_driver_goes_the_run_goes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     sabotage(monkeypatch, "Path(order.place, 'pid').write_text(str(os.getpid())); time.sleep(600)")
     process = subprocess.Popen(workers._COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     assert process.stdin
-    process.stdin.write(orders(tmp_path, Limits())[0].to_line())
+    process.stdin.write(orders(tmp_path, RunLimits())[0].to_line())
     process.stdin.flush()
     pid = tmp_path / "pid"
     while process.poll() is None and not (pid.exists() and pid.read_text()):
@@ -113,9 +113,9 @@ def test_when_the_driver_goes_the_run_goes(tmp_path: Path, monkeypatch: pytest.M
 
 
 def test_a_worker_that_waits_for_another_ends_with_its_driver(tmp_path: Path) -> None:
-    mine = orders(tmp_path, Limits())[0]
+    mine = orders(tmp_path, RunLimits())[0]
     process = subprocess.Popen(workers._COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-    with FolderResults(tmp_path).claimed(mine.id):
+    with FolderStore(tmp_path).claimed(mine.id):
         assert process.communicate(mine.to_line(), timeout=60) == (b"", None)
     assert process.returncode == 0
     assert not list(tmp_path.glob("*.mcap*"))
@@ -127,7 +127,7 @@ def test_when_the_worker_is_killed_the_run_goes(tmp_path: Path, monkeypatch: pyt
     sabotage(monkeypatch, deed)
     process = subprocess.Popen(workers._COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     assert process.stdin
-    process.stdin.write(orders(tmp_path, Limits())[0].to_line())
+    process.stdin.write(orders(tmp_path, RunLimits())[0].to_line())
     process.stdin.flush()
     pid = tmp_path / "pid"
     while process.poll() is None and not (pid.exists() and pid.read_text()):

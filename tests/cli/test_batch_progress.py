@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from atlas_cueing.batch import PlannedRun, Record, plan
+from atlas_cueing.batch import JobResult, PlannedRun, plan
 from atlas_cueing.cli import batch_progress as module
 from atlas_cueing.cli.batch_progress import batch_progress, spoken
 
@@ -25,7 +25,7 @@ def shown(runs: list[PlannedRun], monkeypatch: pytest.MonkeyPatch, stderr: io.St
     monkeypatch.setenv("COLUMNS", "120")
     with batch_progress(runs) as tell:
         for run, result in zip(runs, ("ok", "crashed", "ok"), strict=True):
-            tell(Record(run.id, result, ticks=54, duration=0.45))
+            tell(JobResult(run.id, result, ticks=54, duration=0.45))
     return stderr.getvalue()
 
 
@@ -47,9 +47,9 @@ def test_what_is_left_is_measured_by_flight_and_not_by_runs(runs: list[PlannedRu
     """A third of the ticks in 10 s leaves 20 s; a run that fails at once makes the rest no faster."""
     count = module.Count(runs)
     monkeypatch.setattr(module.Count, "wall", 10.0)
-    count.add(Record(runs[0].id, "ok", ticks=54, duration=0.45))
+    count.add(JobResult(runs[0].id, "ok", ticks=54, duration=0.45))
     assert count.text().endswith("20 s left at most")
-    count.add(Record(runs[1].id, "vehicle_failed"))
+    count.add(JobResult(runs[1].id, "vehicle_failed"))
     assert count.text().endswith("10 s left at most")
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.signal import lsim, lti
 from scipy.spatial.transform import Rotation
 
-from atlas_cueing.cueing import CLASSICAL_STAGE, ClassicalParameters, StageParameters, build
+from atlas_cueing.cueing import CLASSICAL_STAGE, ClassicalParameters, StageParameters, build_cueing
 from atlas_cueing.cueing.classical import ClassicalRotation, TiltAngle, WashoutAngle
 from atlas_cueing.rotation import (
     IDENTITY,
@@ -126,7 +126,7 @@ def test_all_channels_together_are_the_sum_for_small_angles() -> None:
 def test_the_stage_of_the_set_is_its_transfer_function() -> None:
     """0.6, 0.6, 0.5 of the force, 0.8, 1, 1 rad/s, 0.2 rad/s more on z; behind the low-pass of the demand, which is ours."""
     dt, k = 1.0 / 500.0, 0.01
-    cueing = build(ClassicalParameters(tilt_gain=ZERO), CLASSICAL_STAGE, HUGE, ZERO, dt)
+    cueing = build_cueing(ClassicalParameters(tilt_gain=ZERO), CLASSICAL_STAGE, HUGE, ZERO, dt)
     t, a = dt * np.arange(10_000), []
     for now in t.tolist():
         f = (k * sin(1.2 * now), -k * sin(0.8 * now), -G - k * sin(1.7 * now))

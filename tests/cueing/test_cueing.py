@@ -20,7 +20,7 @@ from atlas_cueing.cueing import (
     MethodParameters,
     SlowTurnParameters,
     StageParameters,
-    build,
+    build_cueing,
 )
 from atlas_cueing.rotation import IDENTITY, ZERO, Quat, Vec3, exp, from_euler
 from atlas_cueing.signals import Cue, StageLimits, VehicleState
@@ -38,7 +38,7 @@ def name(method: MethodParameters) -> str:
 
 
 def make(method: MethodParameters, dt: float) -> Cueing:
-    return build(method, StageParameters(), LIMITS, (0.1, 0.0, 0.6), dt)
+    return build_cueing(method, StageParameters(), LIMITS, (0.1, 0.0, 0.6), dt)
 
 
 def ask(method: MethodParameters, sequence: Sequence, dt: float) -> list[Cue]:
@@ -87,7 +87,7 @@ def test_any_finite_force_gives_a_finite_cue(method: MethodParameters, huge: flo
 
 def turned_away(method: MethodParameters, dt: float, push: float = 1.0) -> float:
     """Largest angle in ten seconds between the orientation and the integral of the rate, by the trapezoid in W."""
-    cueing = build(method, StageParameters(), LIMITS, ZERO, dt)
+    cueing = build_cueing(method, StageParameters(), LIMITS, ZERO, dt)
     cues = [cueing.step(vehicle) for vehicle in manoeuvring(dt, 10.0, push)]
     q, worst = Rotation.from_quat(np.roll(cues[0].q_WS, -1)), 0.0
     for i, (before, now) in enumerate(pairwise(cues)):
@@ -125,7 +125,7 @@ def test_both_signs_of_the_vehicle_s_quaternion_are_one_attitude(method: MethodP
 
 @pytest.mark.parametrize("method", METHODS, ids=name)
 def test_a_vehicle_at_rest_asks_for_nothing(method: MethodParameters) -> None:
-    cueing = build(method, StageParameters(), LIMITS, ZERO, 0.01)
+    cueing = build_cueing(method, StageParameters(), LIMITS, ZERO, 0.01)
     for vehicle in standing(from_euler(1.0, 0.0, 0.0), LEVEL, 0.01, 200, since=3.0):
         cue = cueing.step(vehicle)
         assert cue.time == vehicle.time
@@ -136,7 +136,7 @@ def test_a_vehicle_at_rest_asks_for_nothing(method: MethodParameters) -> None:
 def test_the_methods_differ_where_they_should() -> None:
     """Banked with the force along the seat: `attitude` banks, the others stand upright."""
     banked = VehicleState(0.0, exp((0.5, 0.0, 0.0)), ZERO, (0.0, 0.0, -11.0))
-    turned = [build(m, StageParameters(), LIMITS, ZERO, 0.01).step(banked).q_WS for m in METHODS]
+    turned = [build_cueing(m, StageParameters(), LIMITS, ZERO, 0.01).step(banked).q_WS for m in METHODS]
     assert turned[0] == pytest.approx(exp((0.5, 0.0, 0.0)))
     for q_WS in turned[1:]:
         assert q_WS == pytest.approx(IDENTITY, abs=1e-12)
@@ -146,7 +146,7 @@ def test_they_turn_with_a_turn_as_they_should() -> None:
     """A second of roll, the force along the seat: all of it, all but the slow turn, nothing, and a washed-out part."""
     rolled = []
     for method in METHODS:
-        cueing = build(method, StageParameters(), LIMITS, ZERO, 0.01)
+        cueing = build_cueing(method, StageParameters(), LIMITS, ZERO, 0.01)
         for i in range(101):
             cue = cueing.step(VehicleState(0.01 * i, exp((0.002 * i, 0.0, 0.0)), (0.2 if i else 0.0, 0.0, 0.0), LEVEL))
         rolled.append(float(Rotation.from_quat(np.roll(cue.q_WS, -1)).magnitude()))
@@ -162,7 +162,7 @@ def test_the_stage_knows_where_the_head_is() -> None:
     """Spinning up in place: a head off the axis is accelerated, which the vehicle's force does not ask for."""
     moved = []
     for head in (ZERO, (0.5, 0.0, 0.0)):
-        cueing = build(AttitudeParameters(), StageParameters(), LIMITS, head, 0.01)
+        cueing = build_cueing(AttitudeParameters(), StageParameters(), LIMITS, head, 0.01)
         cue = [
             cueing.step(VehicleState(0.01 * i, exp((0.0, 0.0, 0.5 * (0.01 * i) ** 2)), (0.0, 0.0, 0.01 * i), LEVEL))
             for i in range(100)

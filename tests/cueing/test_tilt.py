@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from atlas_cueing.cueing.tilt import ForceDirection, aligned, misalignment, presence
+from atlas_cueing.cueing.tilt import ForceDirection, aligned, fade_in, misalignment
 from atlas_cueing.rotation import (
     IDENTITY,
     ZERO,
@@ -80,23 +80,23 @@ def _across(a: Vec3, b: Vec3) -> Vec3:
 
 @given(st.floats(0.0, 1e9))
 def test_presence_goes_from_nought_to_one_between_hold_and_twice_that(force: float) -> None:
-    there = presence(force, HOLD)
+    there = fade_in(force, HOLD)
     assert 0.0 <= there <= 1.0
     assert there == (0.0 if force <= HOLD else 1.0 if force >= 2.0 * HOLD else there)
-    assert presence(1.001 * force, HOLD) >= there - 1e-12
+    assert fade_in(1.001 * force, HOLD) >= there - 1e-12
 
 
 def test_presence_has_level_ends_and_a_half_in_the_middle() -> None:
     h = 1e-5 * HOLD
-    assert presence(HOLD + h, HOLD) < 1e-8
-    assert 1.0 - presence(2.0 * HOLD - h, HOLD) < 1e-8
-    assert presence(1.5 * HOLD, HOLD) == pytest.approx(0.5)
+    assert fade_in(HOLD + h, HOLD) < 1e-8
+    assert 1.0 - fade_in(2.0 * HOLD - h, HOLD) < 1e-8
+    assert fade_in(1.5 * HOLD, HOLD) == pytest.approx(0.5)
 
 
 def test_misalignment_fades_with_the_presence() -> None:
     for size in (0.5, 1.51, 2.0, 2.5, 3.1, 50.0):
         error = misalignment(IDENTITY, (0.0, 0.6 * size, 0.8 * size), HOLD)
-        assert norm(error) == pytest.approx(presence(size, HOLD) * angle_between((0.0, 0.6, 0.8), (0.0, 0.0, 1.0)))
+        assert norm(error) == pytest.approx(fade_in(size, HOLD) * angle_between((0.0, 0.6, 0.8), (0.0, 0.0, 1.0)))
 
 
 @pytest.mark.parametrize("w_S", [ZERO, (0.3, -2.0, 1.0)])

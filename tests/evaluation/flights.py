@@ -4,16 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from atlas_cueing.evaluation import Flight
+from atlas_cueing.evaluation import RunColumns
 
 G = 9.80665
 
 
-def still(count: int, dt: float = 0.01, **changes: np.ndarray) -> Flight:
+def still(count: int, dt: float = 0.01, **changes: np.ndarray) -> RunColumns:
     """At rest, upright, heading north, `count` ticks; arrays in `changes` replace fields and are stretched to all ticks."""
     zero, unit = np.zeros((count, 3)), np.tile([1.0, 0.0, 0.0, 0.0], (count, 1))
     weight = np.tile([0.0, 0.0, -G], (count, 1))
-    flight = Flight(
+    flight = RunColumns(
         time=np.arange(count) * dt,
         vehicle_q_NB=unit,
         vehicle_w_B=zero,

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from atlas_cueing.evaluation import Consistency, Flight, LimitUse, Metrics, gathered
+from atlas_cueing.evaluation import Consistency, LimitUse, Metrics, RunColumns, gathered
 from atlas_cueing.evaluation.run_columns import Figures
 from atlas_cueing.signals import StageLimits, WheelLimits
 
@@ -31,12 +31,12 @@ def smooth(random: np.random.Generator, count: int, width: int) -> np.ndarray:
     return np.cumsum(random.normal(size=(count, width)), axis=0) * 0.05 + 0.02 * random.normal(size=(count, width))
 
 
-def any_flight(count: int, seed: int) -> Flight:
+def any_flight(count: int, seed: int) -> RunColumns:
     """Everything moves, the platform after the vehicle; limits come and go."""
     random = np.random.default_rng(seed)
     vectors = {
         field.name: smooth(random, count, 3)
-        for field in fields(Flight)
+        for field in fields(RunColumns)
         if field.name not in ("time", "limited") and "_q_" not in field.name
     }
     vectors["felt_w"] = np.roll(vectors["vehicle_w_B"], 4, axis=0) + 0.1 * vectors["felt_w"]
@@ -49,7 +49,7 @@ def any_flight(count: int, seed: int) -> Flight:
     return still(count, 0.01, limited=limited, **vectors, **quaternions)
 
 
-def cut(figures: Figures, flight: Flight, cuts: list[int]) -> dict[str, float]:
+def cut(figures: Figures, flight: RunColumns, cuts: list[int]) -> dict[str, float]:
     """Of a flight that comes in these pieces, none of them empty."""
     ends = sorted({min(end, len(flight.time)) for end in (*cuts, len(flight.time))})
     for start, end in zip([0, *ends], ends, strict=False):
@@ -98,7 +98,7 @@ def test_rows_and_columns_give_the_same_to_the_last_bit(name: str) -> None:
     """A log that is read whole has its messages in rows, one that is read in blocks has them in columns."""
     flight = any_flight(20_000, 7)
     rows, columns = (
-        Flight(**{field.name: order(getattr(flight, field.name)) for field in fields(flight)})
+        RunColumns(**{field.name: order(getattr(flight, field.name)) for field in fields(flight)})
         for order in (in_rows, np.asfortranarray)
     )
     assert rows.felt_w.strides != columns.felt_w.strides

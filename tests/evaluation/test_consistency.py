@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from atlas_cueing.evaluation import Flight, consistency, reintegrate
+from atlas_cueing.evaluation import RunColumns, consistency, reintegrate
 from atlas_cueing.rotation import exp, multiply
 from atlas_cueing.rotations import geodesic
 
@@ -24,7 +24,7 @@ def acceleration(t: np.ndarray) -> np.ndarray:
     return np.stack([1.5 * np.cos(t), -0.84 * np.sin(0.7 * t), 0.8 * np.cos(2.0 * t)], axis=-1)
 
 
-def tumbling(rate_hz: float, duration: float = 10.0) -> Flight:
+def tumbling(rate_hz: float, duration: float = 10.0) -> RunColumns:
     """A flight on `rate`, with orientations by scipy's integrator on q' = 1/2 w_W o q."""
     t = np.arange(int(duration * rate_hz) + 1) / rate_hz
     start = np.array(exp((0.4, -0.2, 0.9)))
@@ -86,7 +86,7 @@ def test_the_rate_in_cabin_axes_does_not_pass() -> None:
     assert found["orientation_drift_max_rad"] > 0.1
 
 
-def rows(flight: Flight) -> list[tuple[tuple[float, ...], tuple[float, ...]]]:
+def rows(flight: RunColumns) -> list[tuple[tuple[float, ...], tuple[float, ...]]]:
     return [(tuple(q), tuple(w)) for q, w in zip(flight.motion_q_WS.tolist(), flight.motion_w_W.tolist(), strict=True)]
 
 

@@ -10,7 +10,7 @@ from atlas_cueing.evaluation.cues import (
     FORCE_THRESHOLD,
     GAIN_BAND,
     RATE_THRESHOLD,
-    Cues,
+    CueCounter,
     cue_shares,
 )
 
@@ -103,7 +103,7 @@ def _sign(x: float, threshold: float) -> int:
 
 @given(signals, st.lists(st.integers(0, 30), max_size=4).map(sorted))
 def test_counted_in_pieces(pair: np.ndarray, cuts: list[int]) -> None:
-    cues = Cues(T)
+    cues = CueCounter(T)
     for vehicle, platform in zip(*(np.split(signal, cuts) for signal in pair), strict=True):
         cues.add(vehicle, platform)
     assert cues.shares() == cue_shares(*pair, T)

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from atlas_cueing.evaluation import metrics, ridden
+from atlas_cueing.evaluation import engaged_segment, metrics
 
 from .flights import still
 
@@ -15,13 +15,13 @@ class Change:
 
 def rows(*changes: tuple[float, str]) -> list[float]:
     """Times of what is left of a flight of 1 s at 8 Hz."""
-    return ridden(still(8, 0.125), [Change(*change) for change in changes]).time.tolist()
+    return engaged_segment(still(8, 0.125), [Change(*change) for change in changes]).time.tolist()
 
 
 def test_without_a_running_state_nothing_is_left_and_it_has_figures() -> None:
     assert rows() == []
     assert rows((0.0, "parked"), (0.3, "engaging")) == []
-    assert metrics(ridden(still(8, 0.125), []))["ticks"] == 0.0
+    assert metrics(engaged_segment(still(8, 0.125), []))["ticks"] == 0.0
 
 
 def test_a_state_begins_with_the_tick_at_which_it_is_told() -> None:

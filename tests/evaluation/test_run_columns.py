@@ -5,7 +5,7 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from atlas_cueing.evaluation import BLOCK_TICKS, Flight, gathered
+from atlas_cueing.evaluation import BLOCK_TICKS, RunColumns, gathered
 from atlas_cueing.evaluation.run_columns import Tail
 from atlas_cueing.signals import TOPICS
 
@@ -36,7 +36,7 @@ class Counted:
 
 def test_every_field_comes_from_its_own_column() -> None:
     log = Counted()
-    flight = Flight.of(log)
+    flight = RunColumns.of(log)
     found = {}
     for field in fields(flight):
         values = getattr(flight, field.name)
@@ -81,7 +81,7 @@ def test_figures_get_every_tick_once() -> None:
         def __init__(self) -> None:
             self.seen: list[float] = []
 
-        def add(self, block: Flight) -> None:
+        def add(self, block: RunColumns) -> None:
             self.seen += block.time.tolist()
 
         def figures(self) -> dict[str, float]:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from vehicles.packets import euler_rates, packet
 
 from atlas_cueing.live.input.flightgear_source import FlightgearSource
-from atlas_cueing.live.input.source import Intake
+from atlas_cueing.live.input.source import SourceReading
 from atlas_cueing.live.input.udp import Address, Datagram
 from atlas_cueing.rotation import to_euler
 from atlas_cueing.signals import VehicleState
@@ -55,11 +55,11 @@ class Ride:
         for t in times:
             self.port.send(packet_of(self.motion.at(t)), t + delay)
 
-    def read(self, time: float) -> Intake:
+    def read(self, time: float) -> SourceReading:
         self.port.now = time
         return self.source.read(time, advance=True)
 
-    def until(self, end: float, begin: float = 0.0, loop_hz: float = 500.0) -> list[Intake]:
+    def until(self, end: float, begin: float = 0.0, loop_hz: float = 500.0) -> list[SourceReading]:
         first = round(begin * loop_hz) + 1
         return [self.read(k / loop_hz) for k in range(first, round(end * loop_hz) + 1)]
 
@@ -75,9 +75,9 @@ def every(begin: float, end: float, rate_hz: float = RATE) -> list[float]:
     return [begin + k / rate_hz for k in range(round((end - begin) * rate_hz))]
 
 
-def states(intakes: list[Intake]) -> list[VehicleState]:
+def states(intakes: list[SourceReading]) -> list[VehicleState]:
     return [intake.vehicle for intake in intakes if intake.vehicle is not None]
 
 
-def clean(intakes: list[Intake]) -> bool:
+def clean(intakes: list[SourceReading]) -> bool:
     return not any(intake.dropped or intake.bad_in_a_row or intake.jumped or intake.reason for intake in intakes)

@@ -7,7 +7,7 @@ import numpy as np
 
 from atlas_cueing.recording import read_log
 from atlas_cueing.recording.log import Log
-from atlas_cueing.review.recovery import Recovered, recover
+from atlas_cueing.review.recovery import Recovered, recover_log
 
 
 def times(log: Log) -> np.ndarray:
@@ -18,7 +18,7 @@ def times(log: Log) -> np.ndarray:
 def recovered(path: Path) -> tuple[Recovered, Log]:
     """What the .part of the log `path` holds."""
     fixed = path.with_name("fixed.mcap")
-    return recover(path.with_name(f"{path.name}.part"), fixed), read_log(fixed)
+    return recover_log(path.with_name(f"{path.name}.part"), fixed), read_log(fixed)
 
 
 class largest_file:  # noqa: N801 - reads as a function

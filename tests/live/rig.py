@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from atlas_cueing.live.control.controller import Conductor, Wishes
+from atlas_cueing.live.control.controller import LiveController, OperatorInputs
 from atlas_cueing.live.control.guard import Command, Guard
-from atlas_cueing.live.control.platform_controller import Ride
+from atlas_cueing.live.control.platform_controller import PlatformController
 from atlas_cueing.live.control.state_machine import State
-from atlas_cueing.live.input.source import Intake
+from atlas_cueing.live.input.source import SourceReading
 from atlas_cueing.live.loop import Loop
 from atlas_cueing.pipeline import Pipeline
 from atlas_cueing.rotation import (
@@ -27,7 +27,7 @@ from atlas_cueing.rotation import (
     normalise,
     scale,
 )
-from atlas_cueing.run import build
+from atlas_cueing.run import build_pipeline
 from atlas_cueing.scenario import Scenario, load_scenario
 from atlas_cueing.signals import Motion, Tick, Timing, VehicleState
 
@@ -86,7 +86,7 @@ class TumblingSource:
         self.vehicle: VehicleState | None = None
         self.advanced: list[bool] = []
 
-    def read(self, time: float, advance: bool) -> Intake:
+    def read(self, time: float, advance: bool) -> SourceReading:
         if self.raises:
             raise self.raises
         assert time > self._t, "times strictly increase"
@@ -104,7 +104,7 @@ class TumblingSource:
             self.vehicle = VehicleState(time, self.q, w, (1.5 * sin(time), cos(1.3 * time), -9.8 + sin(2.0 * time)))
         vehicle = self.vehicle and replace(self.vehicle, time=time)
         reason = "NaN" if dropped else "reset" if jumped else ""
-        return Intake(vehicle, time - self._newest, dropped, self._row, jumped, self.over, reason)
+        return SourceReading(vehicle, time - self._newest, dropped, self._row, jumped, self.over, reason)
 
     def pin(self) -> None:
         self.pinned += 1
@@ -168,18 +168,18 @@ class Rig:
     ) -> None:
         self.dt, self.scenario = dt, scenario(platform, *settings)
         limits = self.scenario.platform
-        self.wheel_limits, self.stage_limits = limits.wheel_speed_limits(), limits.stage_motion_limits()
+        self.wheel_limits, self.stage_limits = limits.wheel_limit_values(), limits.stage_limit_values()
         self.source, self.clock, self.tape, self.wanted = TumblingSource(dt, rate), FakeClock(), Tape(), Wanted()
-        self.ride = Ride(self.pipeline, limits.geometry().sphere_from_wheels, self.stage_limits.travel, dt)
+        self.ride = PlatformController(self.pipeline, limits.geometry().sphere_from_wheels, self.stage_limits.travel, dt)
         self.guard = Guard(dt, self.wheel_limits, self.stage_limits)
-        wishes = Wishes(self.wanted.edges, lambda: self.wanted.signals, duration, attended)
-        self.conductor = Conductor(self.ride, self.guard, self.source, wishes)
+        wishes = OperatorInputs(self.wanted.edges, lambda: self.wanted.signals, duration, attended)
+        self.conductor = LiveController(self.ride, self.guard, self.source, wishes)
         self.loop = Loop(dt, self.clock, self.conductor, [self.tape], [self.tape])
         self.start = self.clock.now() + dt
         self.slot = 0
 
     def pipeline(self) -> Pipeline:
-        return build(self.scenario, self.dt)
+        return build_pipeline(self.scenario, self.dt)
 
     @property
     def state(self) -> State:

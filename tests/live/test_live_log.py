@@ -8,7 +8,7 @@ import pytest
 from atlas_cueing.live.control.state_machine import State
 from atlas_cueing.live.output.ring_recorder import RingRecorder
 from atlas_cueing.recording import McapRecorder
-from atlas_cueing.review import review
+from atlas_cueing.review import review_log
 from atlas_cueing.telemetry import LiveWriter, live_ring
 
 from .riding import STARTED_NS
@@ -68,14 +68,14 @@ def test_a_good_run_is_clean(ride: Callable[[Rig], None], method: str, tmp_path:
     stage = () if method == "classical" else ("cueing.stage.planner=onset",)
     rig = Rig(settings=(f"cueing.method={method}", *stage))
     ride(rig)
-    found = review(recorded(rig, tmp_path / "run.mcap"))
+    found = review_log(recorded(rig, tmp_path / "run.mcap"))
     assert found.clean, [str(finding) for finding in found.findings]
 
 
 def test_a_fault_is_found_with_its_reason(tmp_path: Path) -> None:
     rig = Rig(settings=("cueing.method=classical",))
     rig.bring_to(State.STOPPED)
-    found = review(recorded(rig, tmp_path / "run.mcap"))
+    found = review_log(recorded(rig, tmp_path / "run.mcap"))
     faults = [finding for finding in found.findings if finding.check == "fault"]
     assert len(faults) == 2
     assert "a tick began 25.0 ms late" in str(faults[0])

@@ -18,7 +18,7 @@ from atlas_cueing.live.control.guard import Command
 from atlas_cueing.live.output.ring_recorder import RingRecorder
 from atlas_cueing.live.session import LiveOptions, LiveResult, LiveSession
 from atlas_cueing.recording import read_log
-from atlas_cueing.review import review
+from atlas_cueing.review import review_log
 from atlas_cueing.signals import LIVE_STATES
 
 from .rig import scenario
@@ -61,7 +61,7 @@ def test_a_run_from_a_scenario_to_a_log(tmp_path: Path) -> None:
     assert log.metadata["rate_hz"] == "100"
     assert log.metadata["result"] == result.result
     assert [sequence for sequence, *_ in drives.heard] == list(range(1, result.ticks + 1))
-    found = review(result.log)
+    found = review_log(result.log)
     if result.result == "ok":
         assert found.clean, [str(finding) for finding in found.findings]
         assert result.clean

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from atlas_cueing.live.timing import Histogram, Timing
+from atlas_cueing.live.timing import Histogram, LoopTiming
 
 
 def test_percentiles_are_those_of_the_durations() -> None:
@@ -33,7 +33,7 @@ def test_none_one_and_odd_ones() -> None:
 
 
 def test_figures_have_their_units_in_their_names() -> None:
-    timing = Timing()
+    timing = LoopTiming()
     timing.missed, timing.longest_row, timing.collections = 3, 2, 1
     for duration in (1e-5, 2e-5, 4e-4):
         timing.lateness.add(duration)

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from atlas_cueing.evaluation import Flight
-from atlas_cueing.recording import Log, Status, Table
+from atlas_cueing.evaluation import RunColumns
+from atlas_cueing.recording import Log, Status, TopicColumns
 from atlas_cueing.review import RecordedRun
 from atlas_cueing.scenario import load_platform
 from atlas_cueing.signals import TOPICS
@@ -41,7 +41,7 @@ def coning(count: int = 601, dt: float = 0.01, platform: str = "atlas-2.9m") -> 
     return with_flight(run, flight)
 
 
-def with_flight(run: RecordedRun, flight: Flight) -> RecordedRun:
+def with_flight(run: RecordedRun, flight: RunColumns) -> RecordedRun:
     """The run with another flight in it, and in its log."""
     columns = {
         "/vehicle": (flight.time, flight.vehicle_q_NB, flight.vehicle_w_B, flight.vehicle_f_B),
@@ -53,7 +53,7 @@ def with_flight(run: RecordedRun, flight: Flight) -> RecordedRun:
         "/wheels": (flight.time, flight.wheel_speed, flight.wheel_acceleration),
         "/felt": (flight.time, flight.felt_f, flight.felt_w, np.zeros(len(flight.time))),
     }
-    tables = {topic.name: Table(topic.fields, np.column_stack(columns[topic.name])) for topic in TOPICS}
+    tables = {topic.name: TopicColumns(topic.fields, np.column_stack(columns[topic.name])) for topic in TOPICS}
     return replace(run, log=replace(run.log, tables=tables), flight=flight)
 
 
@@ -82,9 +82,9 @@ def _flight(
     p: np.ndarray,
     v: np.ndarray,
     a: np.ndarray,
-) -> Flight:
+) -> RunColumns:
     none = np.zeros((len(t), 3))
-    return Flight(t, q_NB, w_B, f_B, q, w, p, v, a, q, w, alpha, p, v, a, np.zeros((len(t), 2)), none, none, f_B, w_B)
+    return RunColumns(t, q_NB, w_B, f_B, q, w, p, v, a, q, w, alpha, p, v, a, np.zeros((len(t), 2)), none, none, f_B, w_B)
 
 
 def _log() -> Log:

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from viewer.browsing import Opened, launched, needs_browser
 
-from atlas_cueing.review import review
+from atlas_cueing.review import review_log
 from atlas_cueing.review.report import write_page
 
 pytestmark = needs_browser
@@ -21,7 +21,7 @@ def browser() -> Iterator[Any]:
 
 
 def test_the_plots_are_drawn_and_their_zoom_is_linked(browser: Any, flight: Path, tmp_path: Path) -> None:
-    write_page(review(flight), tmp_path / "page.html")
+    write_page(review_log(flight), tmp_path / "page.html")
     opened = Opened(browser, (tmp_path / "page.html").as_uri())
     page = opened.page
     page.wait_for_function("document.querySelectorAll('.js-plotly-plot').length == 4")

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from atlas_cueing.errors import InputError
-from atlas_cueing.review import compare, recue, review
+from atlas_cueing.review import compare_logs, cue_again, review_log
 
 from .corrupting import corrupted
 
@@ -15,30 +15,30 @@ from .corrupting import corrupted
 def other(flight: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The same flight by another method."""
     path = tmp_path_factory.mktemp("other") / "attitude.mcap"
-    recue(flight, ["cueing.method=attitude"], path)
+    cue_again(flight, ["cueing.method=attitude"], path)
     return path
 
 
 def test_two_methods(flight: Path, other: Path) -> None:
-    both = compare([flight, other])
+    both = compare_logs([flight, other])
     assert (both.names, both.clean) == (("blend", "attitude"), True)
     table = both.to_json()
-    assert table["metrics"]["rate_rms_rad_s"] == [review(log).metrics["rate_rms_rad_s"] for log in (flight, other)]  # type: ignore[index]
+    assert table["metrics"]["rate_rms_rad_s"] == [review_log(log).metrics["rate_rms_rad_s"] for log in (flight, other)]  # type: ignore[index]
     assert [log["log"] for log in table["logs"]] == [str(flight), str(other)]  # type: ignore[attr-defined]
     json.dumps(table)
 
 
 def test_names_tell_the_logs_apart(flight: Path, other: Path, tmp_path: Path) -> None:
-    recue(flight, ["platform.preset=atlas-1.5m"], tmp_path / "small.mcap")
-    assert compare([flight, tmp_path / "small.mcap"]).names == ("atlas-2.9m", "atlas-1.5m")
-    assert compare([flight, other, tmp_path / "small.mcap"]).names == (
+    cue_again(flight, ["platform.preset=atlas-1.5m"], tmp_path / "small.mcap")
+    assert compare_logs([flight, tmp_path / "small.mcap"]).names == ("atlas-2.9m", "atlas-1.5m")
+    assert compare_logs([flight, other, tmp_path / "small.mcap"]).names == (
         "blend atlas-2.9m",
         "attitude atlas-2.9m",
         "blend atlas-1.5m",
     )
     (tmp_path / "twin.mcap").write_bytes(flight.read_bytes())
-    assert compare([flight, tmp_path / "twin.mcap"]).names == ("flight", "twin")
-    assert compare([flight, flight]).names == (str(flight), str(flight))
+    assert compare_logs([flight, tmp_path / "twin.mcap"]).names == ("flight", "twin")
+    assert compare_logs([flight, flight]).names == (str(flight), str(flight))
 
 
 @pytest.mark.parametrize(
@@ -52,21 +52,21 @@ def test_names_tell_the_logs_apart(flight: Path, other: Path, tmp_path: Path) ->
 def test_another_flight_is_refused(flight: Path, tmp_path: Path, name: str, message: str) -> None:
     changed = corrupted(flight, tmp_path / "other.mcap", lambda c: c[name].__setitem__(300, c[name][300] + 1e-12))
     with pytest.raises(InputError, match=message):
-        compare([flight, changed])
-    assert len(compare([flight, changed], different_flights=True).reviews) == 2
+        compare_logs([flight, changed])
+    assert len(compare_logs([flight, changed], different_flights=True).reviews) == 2
 
 
 def test_a_shorter_flight_is_refused(flight: Path, tmp_path: Path) -> None:
     short = corrupted(flight, tmp_path / "short.mcap", lambda c: c.update({n: v[:400] for n, v in c.items()}))
     with pytest.raises(InputError, match="400 ticks instead of 721"):
-        compare([flight, short])
+        compare_logs([flight, short])
 
 
 def test_one_log_is_none_to_compare(flight: Path) -> None:
     with pytest.raises(InputError, match="at least two"):
-        compare([flight])
+        compare_logs([flight])
 
 
 def test_a_fault_in_one_is_a_fault_of_all(flight: Path, tmp_path: Path) -> None:
     bad = corrupted(flight, tmp_path / "bad.mcap", lambda c: c["/wheels w1_rad_s"].__setitem__(300, 9.0))
-    assert not compare([flight, bad]).clean
+    assert not compare_logs([flight, bad]).clean

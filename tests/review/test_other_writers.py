@@ -10,7 +10,7 @@ from recording.test_layouts import check_same
 
 from atlas_cueing.errors import LogError
 from atlas_cueing.recording import read_log
-from atlas_cueing.review import advice, recover, recue, review
+from atlas_cueing.review import advice, cue_again, recover_log, review_log
 
 from .conftest import fly
 from .corrupting import corrupted
@@ -37,10 +37,10 @@ def faulty(log: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Pat
 @pytest.mark.parametrize("name", LAYOUTS)
 def test_recover_and_review(log: Path, tmp_path: Path, name: str) -> None:
     other = rewritten(log, tmp_path / "x.mcap", LAYOUTS[name])
-    own, found = review(log), review(other)
+    own, found = review_log(log), review_log(other)
     assert found.clean
     assert found.metrics == own.metrics
-    result = recover(other, tmp_path / "fixed.mcap")
+    result = recover_log(other, tmp_path / "fixed.mcap")
     assert (result.ticks, result.seconds) == (361, own.duration)
     assert result.lost == (found.notes if name == "beside others" else ())
     check_same(read_log(log), read_log(tmp_path / "fixed.mcap"))
@@ -49,7 +49,7 @@ def test_recover_and_review(log: Path, tmp_path: Path, name: str) -> None:
 
 @pytest.mark.parametrize("name", REVIEWED)
 def test_recue(log: Path, tmp_path: Path, name: str) -> None:
-    recue(str(rewritten(log, tmp_path / "x.mcap", LAYOUTS[name])), [], str(tmp_path / "again.mcap"))
+    cue_again(str(rewritten(log, tmp_path / "x.mcap", LAYOUTS[name])), [], str(tmp_path / "again.mcap"))
     one, other = read_log(log), read_log(tmp_path / "again.mcap")
     for topic, table in one.tables.items():
         assert table.values.tobytes() == other.tables[topic].values.tobytes(), topic
@@ -69,7 +69,7 @@ def test_odd_numbers_and_times_are_read_as_they_are(faulty: dict[str, Path], tmp
 def test_every_fault_is_found(faulty: dict[str, Path], tmp_path: Path, number: int) -> None:
     """Each in one of the layouts by turns, in the words in which it is found in our own."""
     name, layout = list(FAULTS)[number], REVIEWED[number % len(REVIEWED)]
-    own, found = review(faulty[name]), review(rewritten(faulty[name], tmp_path / "x.mcap", LAYOUTS[layout]))
+    own, found = review_log(faulty[name]), review_log(rewritten(faulty[name], tmp_path / "x.mcap", LAYOUTS[layout]))
     assert found.findings == own.findings
     assert not found.clean
 
@@ -93,7 +93,7 @@ def test_a_cut_log(log: Path, tmp_path: Path, name: str) -> None:
     with pytest.raises(LogError):
         read_log(path)
     assert "whole; try: atlas-cueing recover" in advice(path)
-    result = recover(path, tmp_path / "fixed.mcap")
+    result = recover_log(path, tmp_path / "fixed.mcap")
     assert 180 < result.ticks < 300
     assert result.lost[-1].startswith("after ")
     for topic, table in read_log(tmp_path / "fixed.mcap").tables.items():
@@ -116,7 +116,7 @@ def test_a_damaged_chunk(log: Path, tmp_path: Path, name: str, into: int) -> Non
                 start = data.index(b"\x06", start + 1)
         data[start + into] ^= 0x55
 
-    result = recover(broken(log, tmp_path / "x.mcap", small(name), change), tmp_path / "fixed.mcap")
+    result = recover_log(broken(log, tmp_path / "x.mcap", small(name), change), tmp_path / "fixed.mcap")
     assert 330 < result.ticks < 361
     assert any(" s of ticks" in line for line in result.lost)
     time = read_log(tmp_path / "fixed.mcap").column("/motion", "time_s")
@@ -132,7 +132,7 @@ def test_a_damaged_length_of_a_message_outside_of_chunks(log: Path, tmp_path: Pa
             place = data.index(b"\x05", place + 1)
         data[place + 4] ^= 0x55
 
-    result = recover(broken(log, tmp_path / "x.mcap", LAYOUTS["no chunks"], change), tmp_path / "fixed.mcap")
+    result = recover_log(broken(log, tmp_path / "x.mcap", LAYOUTS["no chunks"], change), tmp_path / "fixed.mcap")
     assert result.ticks == 361
     assert len(result.lost) == 2
     assert " s of ticks" in result.lost[0]
@@ -144,7 +144,7 @@ def test_a_damaged_number_outside_of_chunks_is_doubted(log: Path, tmp_path: Path
         data[data.index(b"\x29", len(data) // 2) + 3] ^= 1
 
     layout = Layout({"use_chunking": False, **ALL_CRCS})
-    result = recover(broken(log, tmp_path / "x.mcap", layout, change), tmp_path / "fixed.mcap")
+    result = recover_log(broken(log, tmp_path / "x.mcap", layout, change), tmp_path / "fixed.mcap")
     assert result.lost == ("perhaps a number here and there: messages outside of chunks, and a wrong checksum of the data",)
     assert read_log(tmp_path / "fixed.mcap").metadata["result"] == "recovered"
 
@@ -159,9 +159,9 @@ def test_an_unknown_compression_is_named(log: Path, tmp_path: Path) -> None:
 
     path = broken(log, tmp_path / "x.mcap", small("small chunks"), all_of_them)
     with pytest.raises(LogError, match=r"nothing to recover: .* compression 'br-7', allowed: 'zstd', 'lz4' or none"):
-        recover(path, tmp_path / "fixed.mcap")
+        recover_log(path, tmp_path / "fixed.mcap")
     assert not (tmp_path / "fixed.mcap").exists()
-    result = recover(broken(log, tmp_path / "x.mcap", small("small chunks"), one), tmp_path / "fixed.mcap")
+    result = recover_log(broken(log, tmp_path / "x.mcap", small("small chunks"), one), tmp_path / "fixed.mcap")
     assert result.ticks < 361
     assert "a chunk has compression 'br-7', allowed: 'zstd', 'lz4' or none" in result.lost
 
@@ -173,7 +173,7 @@ def test_a_topic_that_lost_more_than_the_others_is_told(log: Path, tmp_path: Pat
         data[data.index(b"\x04\0\0\0zstd", len(data) // 2) + 100] ^= 0x55
 
     path = broken(log, tmp_path / "x.mcap", LAYOUTS["topic by topic"], change)
-    result = recover(path, tmp_path / "fixed.mcap")
+    result = recover_log(path, tmp_path / "fixed.mcap")
     assert result.ticks == 361
     assert result.lost
     assert all(line.startswith("/") for line in result.lost)
@@ -185,5 +185,5 @@ def test_a_file_with_nothing_of_ours_is_refused(tmp_path: Path) -> None:
     channel = ("/motion", "json", "atlas.Motion", "jsonschema", b"{}", [b"{}"] * 3)
     path = written(tmp_path / "x.mcap", channel)
     with pytest.raises(LogError, match=r"x\.mcap: /motion: none of its 3 messages can be read"):
-        recover(path, tmp_path / "fixed.mcap")
+        recover_log(path, tmp_path / "fixed.mcap")
     assert not (tmp_path / "fixed.mcap").exists()

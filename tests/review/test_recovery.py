@@ -8,7 +8,7 @@ import pytest
 
 from atlas_cueing.errors import InputError, LogError, OutputError
 from atlas_cueing.recording import read_log
-from atlas_cueing.review import advice, recover, review
+from atlas_cueing.review import advice, recover_log, review_log
 
 from .conftest import fly
 
@@ -61,7 +61,7 @@ def test_a_cut_log(log: Path, tmp_path: Path, into: int) -> None:
     cut = chunk_starts(log)[4] + into
     broken = damaged(log, tmp_path, lambda data: data.__delitem__(slice(cut, None)))
     assert advice(broken).startswith("4 chunks are whole; try: atlas-cueing recover ")
-    result = recover(broken, tmp_path / "fixed.mcap")
+    result = recover_log(broken, tmp_path / "fixed.mcap")
     assert result.ticks == 4 * CHUNK
     assert result.seconds == pytest.approx((4 * CHUNK - 1) / 120.0)
     assert result.lost == (f"after {(4 * CHUNK - 1) / 120.0:.6f} s: whatever there was; the log has no end",)
@@ -69,7 +69,7 @@ def test_a_cut_log(log: Path, tmp_path: Path, into: int) -> None:
     metadata = read_log(tmp_path / "fixed.mcap").metadata
     assert (metadata["scenario"], metadata["method"], metadata["platform"]) == ("roll", "blend", "atlas-2.9m")
     assert (metadata["result"], metadata["reason"]) == ("recovered", result.lost[0])
-    assert [finding.check for finding in review(tmp_path / "fixed.mcap").findings] == ["result"]
+    assert [finding.check for finding in review_log(tmp_path / "fixed.mcap").findings] == ["result"]
 
 
 @pytest.mark.parametrize("place", [60, 9 + 3, 3, 0, 37, 9 + 26], ids=["data", "time", "length", "opcode", "compression", "crc"])
@@ -78,7 +78,7 @@ def test_a_damaged_chunk_in_the_middle(log: Path, tmp_path: Path, place: int) ->
     broken = damaged(log, tmp_path, flip(chunk_starts(log)[2] + place))
     with pytest.raises(LogError):
         read_log(broken)
-    result = recover(broken, tmp_path / "fixed.mcap")
+    result = recover_log(broken, tmp_path / "fixed.mcap")
     ticks = np.arange(721)
     if place == 9 + 3:  # the chunk's own note of its first time, which is made anew
         assert result.lost == ()
@@ -90,12 +90,12 @@ def test_a_damaged_chunk_in_the_middle(log: Path, tmp_path: Path, place: int) ->
 
 
 def test_the_first_chunk_is_lost(log: Path, tmp_path: Path) -> None:
-    result = recover(damaged(log, tmp_path, flip(chunk_starts(log)[0] + 60)), tmp_path / "fixed.mcap")
+    result = recover_log(damaged(log, tmp_path, flip(chunk_starts(log)[0] + 60)), tmp_path / "fixed.mcap")
     assert result.lost == (f"before {CHUNK / 120:.6f} s: everything",)
 
 
 def test_a_whole_log_is_copied(log: Path, tmp_path: Path) -> None:
-    result = recover(log, tmp_path / "fixed.mcap")
+    result = recover_log(log, tmp_path / "fixed.mcap")
     assert (result.lost, result.ticks) == ((), 721)
     assert (tmp_path / "fixed.mcap").read_bytes() == log.read_bytes()
     assert result.to_json() == {"log": str(tmp_path / "fixed.mcap"), "ticks": 721, "recovered_s": result.seconds, "lost": []}
@@ -104,7 +104,7 @@ def test_a_whole_log_is_copied(log: Path, tmp_path: Path) -> None:
 def test_a_damaged_end(log: Path, tmp_path: Path) -> None:
     """The summary is made anew; all ticks are there."""
     place = len(log.read_bytes()) - 30
-    result = recover(damaged(log, tmp_path, flip(place)), tmp_path / "fixed.mcap")
+    result = recover_log(damaged(log, tmp_path, flip(place)), tmp_path / "fixed.mcap")
     assert result.ticks == 721
     check_same(tmp_path / "fixed.mcap", log, np.arange(721))
 
@@ -112,12 +112,12 @@ def test_a_damaged_end(log: Path, tmp_path: Path) -> None:
 def test_a_damaged_scenario_is_not_passed_on(log: Path, tmp_path: Path) -> None:
     """An attachment's checksum is looked at: a digit changed in a limit would judge the log by another platform."""
     place = log.read_bytes().index(b"radius_m")
-    result = recover(damaged(log, tmp_path, flip(place)), tmp_path / "fixed.mcap")
+    result = recover_log(damaged(log, tmp_path, flip(place)), tmp_path / "fixed.mcap")
     assert result.ticks == 721
     assert "platform.toml" not in read_log(tmp_path / "fixed.mcap").attachments
     assert result.lost == ("no ticks; the damage is outside the complete chunks",)
     with pytest.raises(LogError, match=r"does not hold platform\.toml"):
-        review(tmp_path / "fixed.mcap")
+        review_log(tmp_path / "fixed.mcap")
 
 
 def test_a_lost_description(log: Path, tmp_path: Path) -> None:
@@ -129,7 +129,7 @@ def test_a_lost_description(log: Path, tmp_path: Path) -> None:
         data[place - 15 : place] = bytes(15)
 
     with pytest.raises(LogError, match="description of channel"):
-        recover(damaged(log, tmp_path, change), tmp_path / "fixed.mcap")
+        recover_log(damaged(log, tmp_path, change), tmp_path / "fixed.mcap")
 
 
 def test_many_random_hits(log: Path, tmp_path: Path) -> None:
@@ -146,7 +146,7 @@ def test_many_random_hits(log: Path, tmp_path: Path) -> None:
         broken = damaged(log, tmp_path, change)
         advice(broken)
         try:
-            recover(broken, tmp_path / "fixed.mcap")
+            recover_log(broken, tmp_path / "fixed.mcap")
         except LogError:
             continue
         recovered += 1
@@ -160,17 +160,17 @@ def test_nothing_to_recover(tmp_path: Path) -> None:
     for content in (b"", b"\x89MCAP0\r\n", b"no log at all " * 100):
         (tmp_path / "nothing.mcap").write_bytes(content)
         with pytest.raises(LogError, match="nothing to recover"):
-            recover(tmp_path / "nothing.mcap", tmp_path / "fixed.mcap")
+            recover_log(tmp_path / "nothing.mcap", tmp_path / "fixed.mcap")
         assert advice(tmp_path / "nothing.mcap") == ""
     assert not (tmp_path / "fixed.mcap").exists()
     with pytest.raises(InputError, match="no such file"):
-        recover(tmp_path / "missing.mcap", tmp_path / "fixed.mcap")
+        recover_log(tmp_path / "missing.mcap", tmp_path / "fixed.mcap")
     assert advice(tmp_path / "missing.mcap") == ""
 
 
 def test_nowhere_to_write(log: Path, tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="No such file or directory"):
-        recover(log, tmp_path / "no" / "fixed.mcap")
+        recover_log(log, tmp_path / "no" / "fixed.mcap")
 
 
 def test_the_part_of_a_killed_run_can_be_recovered_under_its_own_name(log: Path, tmp_path: Path) -> None:
@@ -178,7 +178,7 @@ def test_the_part_of_a_killed_run_can_be_recovered_under_its_own_name(log: Path,
     part = tmp_path / "flight.mcap.part"
     part.write_bytes(log.read_bytes()[: chunk_starts(log)[7]])
     before = part.read_bytes()
-    recover(part, tmp_path / "flight.mcap")
+    recover_log(part, tmp_path / "flight.mcap")
     assert part.read_bytes() == before
     assert len(read_log(tmp_path / "flight.mcap").column("/motion", "time_s")) == 7 * CHUNK
     assert sorted(path.name for path in tmp_path.iterdir()) == ["flight.mcap", "flight.mcap.part"]

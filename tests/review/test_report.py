@@ -11,7 +11,7 @@ import pytest
 from live.logs import largest_file
 
 from atlas_cueing.errors import InputError, OutputError
-from atlas_cueing.review import Finding, compare, judge, recue, review
+from atlas_cueing.review import Finding, compare_logs, cue_again, judge, review_log
 from atlas_cueing.review.plots.downsample import POINTS
 from atlas_cueing.review.plots.time_series import MOST_MARKS, over_time
 from atlas_cueing.review.report import write_comparison, write_page
@@ -24,7 +24,7 @@ from .runs import coning
 def page(flight: Path, tmp_path_factory: pytest.TempPathFactory) -> str:
     """The page of a clean flight."""
     file = tmp_path_factory.mktemp("page") / "page.html"
-    write_page(review(flight), file)
+    write_page(review_log(flight), file)
     return file.read_text()
 
 
@@ -49,7 +49,7 @@ def test_nothing_is_fetched(page: str) -> None:
 
 def test_findings_are_listed_and_marked(flight: Path, tmp_path: Path) -> None:
     bad = corrupted(flight, tmp_path / "bad.mcap", lambda c: c["/wheels w2_rad_s"].__setitem__(300, 5.0))
-    found = review(bad)
+    found = review_log(bad)
     write_page(found, tmp_path / "page.html")
     body = own_part((tmp_path / "page.html").read_text())
     assert f"<span class='verdict'>{found.verdict}</span>" in body
@@ -64,7 +64,7 @@ def test_what_a_log_says_is_text_not_html(flight: Path, tmp_path: Path) -> None:
     evil = "<script>alert(1)</script>"
     metadata = {"scenario": evil, "result": evil, "reason": evil, evil: evil}
     bad = corrupted(flight, tmp_path / "bad.mcap", metadata=metadata, states=[(1.0, evil, evil)])
-    write_page(review(bad), tmp_path / "page.html")
+    write_page(review_log(bad), tmp_path / "page.html")
     assert evil not in (tmp_path / "page.html").read_text()
 
 
@@ -77,7 +77,7 @@ def test_a_field_with_an_evil_name(tmp_path: Path) -> None:
 
 
 def test_the_rows_share_their_zoom_and_show_the_columns(flight: Path) -> None:
-    found = review(flight)
+    found = review_log(flight)
     plot = over_time(found)
     axes = [axis for name, axis in plot.to_plotly_json()["layout"].items() if name.startswith("xaxis")]
     assert len(axes) == 11
@@ -92,15 +92,15 @@ def test_an_odd_log_has_a_page(flight: Path, tmp_path: Path) -> None:
     """No ticks, one tick, numbers that are none."""
     for name, ticks in (("none", slice(0)), ("one", slice(1)), ("five", slice(5))):
         log = corrupted(flight, tmp_path / f"{name}.mcap", lambda c, t=ticks: c.update({n: v[t] for n, v in c.items()}))
-        write_page(review(log), tmp_path / f"{name}.html")
+        write_page(review_log(log), tmp_path / f"{name}.html")
     log = corrupted(flight, tmp_path / "nan.mcap", lambda c: [c[n].__setitem__(9, np.nan) for n in c if "time" not in n])  # type: ignore[func-returns-value, arg-type]
-    write_page(review(log), tmp_path / "nan.html")
+    write_page(review_log(log), tmp_path / "nan.html")
     assert all((tmp_path / f"{name}.html").stat().st_size > 4e6 for name in ("none", "one", "five", "nan"))
 
 
 def test_a_comparison(flight: Path, tmp_path: Path) -> None:
-    recue(flight, ["cueing.method=attitude"], tmp_path / "other.mcap")
-    write_comparison(compare([flight, tmp_path / "other.mcap"]), tmp_path / "both.html")
+    cue_again(flight, ["cueing.method=attitude"], tmp_path / "other.mcap")
+    write_comparison(compare_logs([flight, tmp_path / "other.mcap"]), tmp_path / "both.html")
     body = own_part((tmp_path / "both.html").read_text())
     assert "<h1>blend against attitude</h1>" in body
     row = r"<tr><td>force rms m/s²</td><td class='number'>[\d.]+</td><td class='number'>[\d.]+</td>"
@@ -114,17 +114,17 @@ def test_without_plotly_it_says_what_to_install(flight: Path, tmp_path: Path, mo
     monkeypatch.delattr("atlas_cueing.review.plots.time_series", raising=False)
     monkeypatch.setitem(sys.modules, "plotly", None)
     with pytest.raises(InputError, match=r"pip install 'atlas_cueing\[report\]'"):
-        write_page(review(flight), tmp_path / "page.html")
+        write_page(review_log(flight), tmp_path / "page.html")
 
 
 def test_a_full_disk_leaves_the_old_page(flight: Path, tmp_path: Path) -> None:
-    found = review(flight)
+    found = review_log(flight)
     (tmp_path / "page.html").write_text("old")
     for file in ("page.html", "new.html"):
         with largest_file(100_000), pytest.raises(OutputError, match=rf"page .*{file}: File too large"):
             write_page(found, tmp_path / file)
         with largest_file(100_000), pytest.raises(OutputError, match=rf"page .*{file}: File too large"):
-            write_comparison(compare([flight, flight]), tmp_path / file)
+            write_comparison(compare_logs([flight, flight]), tmp_path / file)
     assert [path.name for path in tmp_path.iterdir()] == ["page.html"]
     assert (tmp_path / "page.html").read_text() == "old"
     write_page(found, tmp_path / "page.html")
@@ -135,10 +135,10 @@ def test_a_full_disk_leaves_the_old_page(flight: Path, tmp_path: Path) -> None:
 def test_a_log_whose_name_is_no_text(flight: Path, tmp_path: Path) -> None:
     log = tmp_path / os.fsdecode(b"caf\xe9.mcap")
     log.write_bytes(flight.read_bytes())
-    write_page(review(log), tmp_path / "page.html")
+    write_page(review_log(log), tmp_path / "page.html")
     assert "caf\\xe9.mcap" in own_part((tmp_path / "page.html").read_text())
 
 
 def test_nowhere_to_write(flight: Path, tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="No such file or directory"):
-        write_page(review(flight), tmp_path / "no" / "page.html")
+        write_page(review_log(flight), tmp_path / "no" / "page.html")

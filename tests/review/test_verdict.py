@@ -9,7 +9,7 @@ import tomli_w
 
 from atlas_cueing.errors import InputError, LogError
 from atlas_cueing.recording import read_log
-from atlas_cueing.review import open_run, review
+from atlas_cueing.review import open_run, review_log
 from atlas_cueing.review.checks.actuators import limit_shares
 from atlas_cueing.scenario.reading import parse_toml
 
@@ -21,7 +21,7 @@ from .faults import AT, DEGREE, FAULTS, STEP, drop, turn
 def test_a_fault_is_found(flight: Path, tmp_path: Path, name: str) -> None:
     change, check, place, tick = FAULTS[name]
     times = read_log(flight).column("/motion", "time_s")
-    found = review(corrupted(flight, tmp_path / "bad.mcap", change))
+    found = review_log(corrupted(flight, tmp_path / "bad.mcap", change))
     assert not found.clean
     matching = [finding for finding in found.findings if (finding.check, finding.place) == (check, place)]
     assert matching, [str(finding) for finding in found.findings]
@@ -30,7 +30,7 @@ def test_a_fault_is_found(flight: Path, tmp_path: Path, name: str) -> None:
 
 
 def test_a_clean_flight(flight: Path) -> None:
-    found = review(flight)
+    found = review_log(flight)
     assert found.findings == ()
     assert (found.clean, found.verdict, found.duration) == (True, "clean", pytest.approx(6.0))
     table = found.to_json()
@@ -42,13 +42,13 @@ def test_a_clean_flight(flight: Path) -> None:
 def test_a_logged_limit_broken_by_a_thousandth(flight: Path, tmp_path: Path, name: str) -> None:
     """The flight stays as it is and the limit is set a thousandth below what was used, so that nothing else is amiss."""
     used = np.abs(limit_shares(open_run(flight))[name])
-    found = review(with_limit(flight, tmp_path / "bad.mcap", name, used.max() / 1.001))
+    found = review_log(with_limit(flight, tmp_path / "bad.mcap", name, used.max() / 1.001))
     logged = [finding for finding in found.findings if finding.check == "limit" and " by " not in finding.place]
     assert len(logged) == 1
     worst = np.argwhere(used == used.max())[0][0]
     assert logged[0].time == read_log(flight).column("/motion", "time_s")[worst]
     assert str(logged[0]) in found.to_json()["violations"]
-    assert review(with_limit(flight, tmp_path / "fair.mcap", name, used.max() * 1.001)).clean
+    assert review_log(with_limit(flight, tmp_path / "fair.mcap", name, used.max() * 1.001)).clean
 
 
 @pytest.mark.parametrize(
@@ -74,7 +74,7 @@ def test_a_limit_broken_by_a_thousandth_between_ticks(flight: Path, tmp_path: Pa
         if "second" in place:
             slope = np.diff(slope) / np.diff(time)[1:]
         most = max(most, float(np.abs(slope).max() / limit[k]))
-    found = review(with_limit(flight, tmp_path / "bad.mcap", name, most / 1.001))
+    found = review_log(with_limit(flight, tmp_path / "bad.mcap", name, most / 1.001))
     assert any(place.format(k=axis) in str(finding) for axis in axes for finding in found.findings if finding.check == "limit")
 
 
@@ -106,7 +106,7 @@ def with_limit(flight: Path, output: Path, name: str, share: float) -> Path:
 def test_what_the_run_says_itself(
     flight: Path, tmp_path: Path, metadata: dict[str, str], states: list[tuple[float, str, str]] | None, texts: list[str]
 ) -> None:
-    found = review(corrupted(flight, tmp_path / "bad.mcap", metadata=metadata, states=states))
+    found = review_log(corrupted(flight, tmp_path / "bad.mcap", metadata=metadata, states=states))
     assert len(found.findings) == len(texts)
     assert all(text in str(finding) for text, finding in zip(texts, found.findings, strict=True))
 
@@ -115,19 +115,19 @@ def test_a_jump_that_a_state_tells_of_is_a_note(flight: Path, tmp_path: Path) ->
     when = float(read_log(flight).column("/motion", "time_s")[AT])
     states = [(0.0, "running", ""), (when, "attitude_jump", "by 1 deg"), (when + STEP, "running", "")]
     change = turn("/vehicle", "q_nb", 1.0 * DEGREE, slice(AT, None))
-    found = review(corrupted(flight, tmp_path / "told.mcap", change, states=states))
+    found = review_log(corrupted(flight, tmp_path / "told.mcap", change, states=states))
     assert found.clean
     assert found.notes == (f"{when:.6f} to {when + STEP:.6f} s attitude_jump: by 1 deg",)
 
 
 def test_a_log_without_ticks(flight: Path, tmp_path: Path) -> None:
-    found = review(corrupted(flight, tmp_path / "empty.mcap", drop(ticks=slice(None)), metadata={"result": "vehicle_failed"}))
+    found = review_log(corrupted(flight, tmp_path / "empty.mcap", drop(ticks=slice(None)), metadata={"result": "vehicle_failed"}))
     assert [finding.check for finding in found.findings] == ["result", "empty"]
     assert (found.duration, found.run.step) == (0.0, 0.0)
 
 
 def test_a_log_of_one_tick(flight: Path, tmp_path: Path) -> None:
-    assert review(corrupted(flight, tmp_path / "one.mcap", drop(ticks=slice(1, None)))).clean
+    assert review_log(corrupted(flight, tmp_path / "one.mcap", drop(ticks=slice(1, None)))).clean
 
 
 def test_a_rewritten_log_is_the_same(flight: Path, tmp_path: Path) -> None:
@@ -136,7 +136,7 @@ def test_a_rewritten_log_is_the_same(flight: Path, tmp_path: Path) -> None:
     one, other = columns_of(read_log(flight)), columns_of(read_log(again))
     assert one.keys() == other.keys()
     assert all(np.array_equal(one[name], other[name]) for name in one)
-    assert review(again).clean
+    assert review_log(again).clean
 
 
 @pytest.mark.parametrize(
@@ -157,7 +157,7 @@ def test_a_rewritten_log_is_the_same(flight: Path, tmp_path: Path) -> None:
 def test_bad_files_inside(flight: Path, tmp_path: Path, files: dict[str, bytes], message: str) -> None:
     bad = corrupted(flight, tmp_path / "bad.mcap", attachments=files)
     with pytest.raises(LogError, match=message) as caught:
-        review(bad)
+        review_log(bad)
     assert "\n" not in str(caught.value)
     assert not (tmp_path.parent / "evil.toml").exists()
 
@@ -165,10 +165,10 @@ def test_bad_files_inside(flight: Path, tmp_path: Path, files: dict[str, bytes],
 @pytest.mark.parametrize("name", ["nothing.mcap", ".", "x" * 300])
 def test_no_such_file(tmp_path: Path, name: str) -> None:
     with pytest.raises(InputError):
-        review(tmp_path / name)
+        review_log(tmp_path / name)
 
 
 def test_a_scenario_is_no_log(tmp_path: Path) -> None:
     (tmp_path / "s.toml").write_text('name = "s"')
     with pytest.raises(InputError, match="to fly a scenario: atlas-cueing run"):
-        review(tmp_path / "s.toml")
+        review_log(tmp_path / "s.toml")

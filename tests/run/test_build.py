@@ -6,7 +6,7 @@ from scenario.texts import SCRIPT
 
 from atlas_cueing.errors import InputError, ScenarioError, SlipConditionError
 from atlas_cueing.rotation import IDENTITY, ZERO
-from atlas_cueing.run import build, prepare
+from atlas_cueing.run import build_pipeline, prepare
 from atlas_cueing.scenario import Scenario, load_scenario, presets
 from atlas_cueing.scenario.cueing_table import METHODS
 from atlas_cueing.signals import STANDARD_GRAVITY, VehicleState
@@ -22,7 +22,7 @@ def loaded(folder: Path, *overrides: str) -> Scenario:
 
 
 def test_at_rest_nothing_moves(tmp_path: Path) -> None:
-    pipeline = build(loaded(tmp_path), 0.01)
+    pipeline = build_pipeline(loaded(tmp_path), 0.01)
     for tick in range(50):
         state = VehicleState(tick * 0.01, IDENTITY, ZERO, RESTING.f_B)
         result = pipeline.step(state)
@@ -37,7 +37,7 @@ def test_the_platforms_numbers_arrive(tmp_path: Path) -> None:
     scenario = loaded(
         tmp_path, "platform.wheel_limits.speed_rad_s=0.5", "platform.wheel.0.radius_m=0.3", "cueing.method=attitude"
     )
-    pipeline = build(scenario, 0.01)
+    pipeline = build_pipeline(scenario, 0.01)
     fastest = 0.0
     for tick in range(200):
         result = pipeline.step(VehicleState(tick * 0.01, IDENTITY, (1.0, 0.0, 0.0), RESTING.f_B))
@@ -50,24 +50,24 @@ def test_the_platforms_numbers_arrive(tmp_path: Path) -> None:
 
 def test_two_pipelines_share_nothing(tmp_path: Path) -> None:
     scenario = loaded(tmp_path)
-    first, second = build(scenario, 0.01), build(scenario, 0.01)
+    first, second = build_pipeline(scenario, 0.01), build_pipeline(scenario, 0.01)
     moved = VehicleState(0.0, (0.0, 1.0, 0.0, 0.0), (0.3, 0.1, 0.0), RESTING.f_B)
     expected = second.step(RESTING)
     assert first.step(moved) != expected
-    assert build(scenario, 0.01).step(RESTING) == expected
+    assert build_pipeline(scenario, 0.01).step(RESTING) == expected
 
 
 def test_a_singular_platform_is_refused_with_its_file(tmp_path: Path) -> None:
     scenario = loaded(tmp_path, *(f"platform.wheel.{i}.contact={contact}" for i, contact in enumerate(FLAT)))
     told = r"^--set: wheel: platform 'atlas-2.9m' .*determinant .*condition number (infinite|\d)"
     with pytest.raises(SlipConditionError, match=told):
-        build(scenario, 0.01)
+        build_pipeline(scenario, 0.01)
 
 
 def test_limits_that_leave_no_room_are_refused_with_file_and_key(tmp_path: Path) -> None:
     scenario = loaded(tmp_path, "platform.stage_limits.travel_m=1e-6", "platform.wheel_limits.speed_rad_s=[1,1e-6,1]")
     with pytest.raises(ScenarioError) as caught:
-        build(scenario, 0.01)
+        build_pipeline(scenario, 0.01)
     assert str(caught.value).splitlines() == [
         "--set: platform.wheel_limits.speed_rad_s = 1e-06: "
         "allowed: value > 0.0075, which is jerk_rad_s3 (600) dt^2 / 8 at 100 Hz",
@@ -83,7 +83,7 @@ def test_limits_that_leave_no_room_name_the_platform_file(tmp_path: Path) -> Non
     (tmp_path / "mine.toml").write_text(text.replace("speed_m_s = [1.5, 1.5, 1.2]", "speed_m_s = 1e-6"))
     scenario = loaded(tmp_path, "platform.file=mine.toml")
     with pytest.raises(ScenarioError, match=r"mine\.toml: stage_limits\.speed_m_s = 1e-06: allowed: value > "):
-        build(scenario, 0.01)
+        build_pipeline(scenario, 0.01)
 
 
 def test_all_oracle_geometries_can_be_typed_into_a_platform(tmp_path: Path) -> None:
@@ -107,7 +107,7 @@ def test_only_preview_needs_the_whole_flight(tmp_path: Path) -> None:
 
 def test_without_the_whole_flight_preview_is_refused_in_one_line(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"^scenario 'short': method 'preview' needs the whole flight .*does not fly live.*$"):
-        build(loaded(tmp_path, "cueing.method=preview"), 0.01)
+        build_pipeline(loaded(tmp_path, "cueing.method=preview"), 0.01)
 
 
 def test_a_vehicle_is_flown_ahead_only_for_who_needs_it(tmp_path: Path) -> None:

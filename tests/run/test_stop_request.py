@@ -3,13 +3,13 @@ import threading
 
 import pytest
 
-from atlas_cueing.run.stop_request import Interrupt
+from atlas_cueing.run.stop_request import StopRequest
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_is_a_request_and_the_next_one_is_not(number: signal.Signals) -> None:
     before = signal.getsignal(number)
-    with Interrupt() as stop:
+    with StopRequest() as stop:
         assert not stop.requested
         signal.raise_signal(number)
         assert stop.requested
@@ -22,7 +22,7 @@ def test_handlers_come_back_after_an_error() -> None:
     before = signal.getsignal(signal.SIGINT)
 
     def fail_inside() -> None:
-        with Interrupt():
+        with StopRequest():
             assert signal.getsignal(signal.SIGINT) is not before
             raise ZeroDivisionError
 
@@ -35,7 +35,7 @@ def test_another_thread_catches_nothing() -> None:
     seen = []
 
     def enter() -> None:
-        with Interrupt() as stop:
+        with StopRequest() as stop:
             seen.append(stop.requested)
 
     thread = threading.Thread(target=enter)

@@ -24,7 +24,7 @@ def written(folder: Path, text: str = SCRIPT) -> Path:
 
 
 def speed(folder: Path, *overrides: str) -> Vec3:
-    return load_scenario(folder / "s.toml", overrides).platform.wheel_speed_limits().speed
+    return load_scenario(folder / "s.toml", overrides).platform.wheel_limit_values().speed
 
 
 def test_platform_keys_go_over_the_presets(tmp_path: Path) -> None:

@@ -55,8 +55,8 @@ def test_every_number_is_published_or_marked_as_assumed(name: str) -> None:
 def test_limits_fit_each_other(name: str) -> None:
     """The sphere turns at half a turn a second or more, and the stage can brake from full speed within its travel."""
     platform = load_platform(name)
-    assert headroom(platform.geometry(), platform.wheel_speed_limits()).worst_rate > pi
-    limits = platform.stage_motion_limits()
+    assert headroom(platform.geometry(), platform.wheel_limit_values()).worst_rate > pi
+    limits = platform.stage_limit_values()
     for travel, v, a, j in zip(limits.travel, limits.speed, limits.acceleration, limits.jerk, strict=True):
         assert 0.5 * v * (v / a + a / j) < 0.5 * travel
 
@@ -71,9 +71,9 @@ def test_numbers_arrive() -> None:
     data["rider"] = {"head_m": [0.1, 0, 0.5]}
     data["wheel"][1]["radius_m"] = 0.25
     platform = Platform.model_validate(data)
-    limits = platform.wheel_speed_limits()
+    limits = platform.wheel_limit_values()
     assert (limits.speed, limits.acceleration, limits.jerk) == ((1.0, 2.0, 3.0), (4.0, 4.0, 4.0), (5.5, 5.5, 5.5))
-    stage = platform.stage_motion_limits()
+    stage = platform.stage_limit_values()
     assert (stage.travel, stage.speed) == ((1.0, 1.0, 0.75), (1.5, 1.5, 1.2))
     assert (stage.acceleration, stage.jerk) == ((6.0, 6.0, 5.0), (60.0, 60.0, 50.0))
     assert platform.head_S == (0.1, 0.0, 0.5)

@@ -81,7 +81,7 @@ def test_numbers_survive_to_the_last_bit(tmp_path_factory: pytest.TempPathFactor
     folder = tmp_path_factory.mktemp("bits")
     scenario = loaded(folder, SCRIPT, f"platform.wheel_limits.speed_rad_s={speed!r}", f"cueing.force_gain={gain!r}")
     again = unpacked(scenario, folder / "again")
-    assert again.platform.wheel_speed_limits().speed == (speed,) * 3
+    assert again.platform.wheel_limit_values().speed == (speed,) * 3
     assert again.file.cueing.force_gain == (gain,) * 3
 
 

@@ -9,7 +9,7 @@ from atlas_cueing.scenario.tables import (
     ONE_OR_THREE,
     THREE,
     Finite,
-    Table,
+    ScenarioTable,
     number,
     tables_in,
     text,
@@ -19,7 +19,7 @@ from atlas_cueing.scenario.tables import (
 HUGE = 10**400  # an integer that no float holds
 
 
-class Inner(Table):
+class Inner(ScenarioTable):
     closed: Annotated[float, number(-1.0, 2.0)] = 0.0
     half_open: Annotated[float, number(0.0, 2.0, above=True)] = 1.0
     finite: Finite = 0.0
@@ -29,7 +29,7 @@ class Inner(Table):
     spread: Annotated[tuple[Finite, Finite, Finite], ONE_OR_THREE] = (0.0, 0.0, 0.0)
 
 
-class Outer(Table):
+class Outer(ScenarioTable):
     inner: Inner | None = None
     many: tuple[Inner, ...] = ()
     plain: int = 0

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 from ruckig import ControlInterface, InputParameter, Ruckig, RuckigError, Trajectory
 
-from atlas_cueing.smoothing import Axis, Stop
+from atlas_cueing.smoothing import AxisSmoothing, Stop
 from atlas_cueing.smoothing.axis import Step
 
 Array = NDArray[np.float64]
@@ -12,7 +12,7 @@ Array = NDArray[np.float64]
 SUBSTEPS = 10
 
 
-class Recorder(Axis):
+class Recorder(AxisSmoothing):
     """An Axis that keeps (displacement, v, a) at ten points inside the step it gave last, one row each."""
 
     def __init__(self, dt: float, speed: float, acceleration: float, jerk: float) -> None:
@@ -70,7 +70,7 @@ def coast(p: float | Array, v: float | Array, a: float | Array, j: float, t: Arr
     return p + v * t + a * t**2 / 2.0 + j * t**3 / 6.0, v + a * t + j * t**2 / 2.0, a + j * t
 
 
-def ruckig_path(v: float, a: float, v_target: float, a_target: float, axis: Axis) -> Array:
+def ruckig_path(v: float, a: float, v_target: float, a_target: float, axis: AxisSmoothing) -> Array:
     inputs, trajectory = InputParameter(1), Trajectory(1)
     inputs.control_interface = ControlInterface.Velocity
     inputs.minimum_duration = axis.dt

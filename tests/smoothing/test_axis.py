@@ -15,7 +15,7 @@ from ruckig import Result, RuckigError
 import atlas_cueing
 from atlas_cueing.errors import PlanningError
 from atlas_cueing.smoothing import axis as axis_module
-from atlas_cueing.smoothing.axis import Axis, Step
+from atlas_cueing.smoothing.axis import AxisSmoothing, Step
 
 from .between import Recorder
 
@@ -23,8 +23,8 @@ DT, SPEED, ACCELERATION, JERK = 1.0 / 120.0, 31.0, 60.0, 600.0
 FAR = (SPEED, 0.0)  # a target that no tick reaches, so that ruckig plans
 
 
-def make(dt: float = DT) -> Axis:
-    return Axis(dt, SPEED, ACCELERATION, JERK)
+def make(dt: float = DT) -> AxisSmoothing:
+    return AxisSmoothing(dt, SPEED, ACCELERATION, JERK)
 
 
 anything = st.floats(allow_nan=False) | st.sampled_from([inf, -inf, 1e300, -1e308, 5e-324])
@@ -37,14 +37,14 @@ def test_limits_that_are_none_are_refused(which: int, bad: float) -> None:
     numbers = [DT, SPEED, ACCELERATION, JERK]
     numbers[which] = bad
     with pytest.raises(ValueError, match=re.escape(str(bad))):
-        Axis(*numbers)
+        AxisSmoothing(*numbers)
 
 
 def test_a_tick_too_long_for_the_jerk_is_refused() -> None:
     """Where the speed could bend by more than all of its limit between two ticks."""
     with pytest.raises(ValueError, match="speed"):
-        Axis(1.0, 1.0, 100.0, 8.0)
-    Axis(1.0, 1.01, 100.0, 8.0)
+        AxisSmoothing(1.0, 1.0, 100.0, 8.0)
+    AxisSmoothing(1.0, 1.01, 100.0, 8.0)
 
 
 @pytest.mark.parametrize("bad", [nan, inf, -inf])
@@ -174,7 +174,7 @@ def test_an_answer_beyond_the_limits_is_refused(v: float, a: float) -> None:
         axis.towards(v, a, -SPEED, 0.0)
 
 
-def pretend(axis: Axis, told: dict[str, float]) -> None:
+def pretend(axis: AxisSmoothing, told: dict[str, float]) -> None:
     """Let the generator say this."""
     axis._generator = SimpleNamespace(calculate=lambda *_: Result.Working)
     axis._trajectory = SimpleNamespace(duration=1.0, at_time=lambda _: ([told["p"]], [told["v"]], [told["a"]]))

@@ -9,7 +9,7 @@ import pytest
 from live.riding import child
 from waiting import until
 
-from atlas_cueing.telemetry.child_process import Ended, Forked, Left
+from atlas_cueing.telemetry.child_process import ChildProcess, Left, ProcessExit
 
 PATIENCE = 60.0  # s, for what takes milliseconds on a machine that has time
 
@@ -22,15 +22,15 @@ def patient(left: Left) -> bytes:
 
 
 def test_its_answer_comes_back() -> None:
-    assert Forked(lambda _: b"x" * 10_000).finish(PATIENCE) == Ended(b"x" * 10_000, 0)
+    assert ChildProcess(lambda _: b"x" * 10_000).finish(PATIENCE) == ProcessExit(b"x" * 10_000, 0)
 
 
 def test_it_is_told_that_the_parent_waits_and_stays_ended() -> None:
-    process = Forked(patient)
+    process = ChildProcess(patient)
     sleep(0.02)
     assert process.alive
-    assert process.finish(PATIENCE) == Ended(b"goodbye", 0)
-    assert process.finish(PATIENCE) == Ended(b"goodbye", 0)
+    assert process.finish(PATIENCE) == ProcessExit(b"goodbye", 0)
+    assert process.finish(PATIENCE) == ProcessExit(b"goodbye", 0)
     assert not process.alive
 
 
@@ -38,21 +38,21 @@ def test_an_exception_is_shown_and_ends_it(capfd: pytest.CaptureFixture[str]) ->
     def fail(_: Left) -> bytes:
         raise SystemExit("out of luck")
 
-    process = Forked(fail)
-    assert process.finish(PATIENCE) == Ended(b"", 70)
+    process = ChildProcess(fail)
+    assert process.finish(PATIENCE) == ProcessExit(b"", 70)
     assert "out of luck" in capfd.readouterr().err
 
 
 def test_a_killed_one_is_dead_before_it_is_reaped() -> None:
-    process = Forked(patient)
+    process = ChildProcess(patient)
     os.kill(process.pid, signal.SIGKILL)
     until(lambda: not process.alive)
-    assert process.finish(PATIENCE) == Ended(b"", -signal.SIGKILL)
+    assert process.finish(PATIENCE) == ProcessExit(b"", -signal.SIGKILL)
 
 
 def test_one_that_does_not_end_is_killed() -> None:
-    process = Forked(lambda _: sleep(60.0) or b"")
-    assert process.finish(0.05) == Ended(b"", -signal.SIGKILL)
+    process = ChildProcess(lambda _: sleep(60.0) or b"")
+    assert process.finish(0.05) == ProcessExit(b"", -signal.SIGKILL)
 
 
 def test_a_half_answer_of_one_that_does_not_end_counts_for_nothing() -> None:
@@ -62,15 +62,15 @@ def test_a_half_answer_of_one_that_does_not_end_counts_for_nothing() -> None:
         os.kill(os.getpid(), signal.SIGSTOP)
         return b"never said"
 
-    assert Forked(stop).finish(0.1) == Ended(b"", -signal.SIGKILL)
+    assert ChildProcess(stop).finish(0.1) == ProcessExit(b"", -signal.SIGKILL)
 
 
 def test_a_sibling_that_holds_a_copy_of_our_end_does_not_hide_that_we_wait() -> None:
-    first = Forked(patient)
-    second = Forked(patient)  # has a copy of the first one's channel
-    assert first.finish(PATIENCE) == Ended(b"goodbye", 0)
+    first = ChildProcess(patient)
+    second = ChildProcess(patient)  # has a copy of the first one's channel
+    assert first.finish(PATIENCE) == ProcessExit(b"goodbye", 0)
     assert second.alive
-    assert second.finish(PATIENCE) == Ended(b"goodbye", 0)
+    assert second.finish(PATIENCE) == ProcessExit(b"goodbye", 0)
 
 
 def test_a_sibling_that_holds_a_copy_of_our_end_does_not_hide_that_the_parent_is_gone(
@@ -80,8 +80,8 @@ def test_a_sibling_that_holds_a_copy_of_our_end_does_not_hide_that_the_parent_is
 
     def run() -> None:
         """Two processes, of which the second outlives the parent and never looks."""
-        first = Forked(lambda left: patient(left) + bytes(os.write(tell, b"noticed")))
-        second = Forked(lambda _: sleep(30.0) or b"")
+        first = ChildProcess(lambda left: patient(left) + bytes(os.write(tell, b"noticed")))
+        second = ChildProcess(lambda _: sleep(30.0) or b"")
         os.write(tell, str(second.pid).encode())
         signal.pause()
         assert first.alive
@@ -103,10 +103,10 @@ def test_a_sibling_that_holds_a_copy_of_our_end_does_not_hide_that_the_parent_is
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_signals_of_a_terminal_are_not_for_it(number: signal.Signals) -> None:
     before = signal.getsignal(number)
-    process = Forked(patient)
+    process = ChildProcess(patient)
     os.kill(process.pid, number)  # perhaps before it has run a single line of its own
     sleep(0.02)
     assert process.alive
-    assert process.finish(PATIENCE) == Ended(b"goodbye", 0)
+    assert process.finish(PATIENCE) == ProcessExit(b"goodbye", 0)
     assert signal.getsignal(number) == before
     assert number not in signal.pthread_sigmask(signal.SIG_BLOCK, ())

@@ -18,7 +18,7 @@ from atlas_cueing.vehicles.signal_vehicle import (
     MIN_STEPS_PER_PERIOD,
     RATE_AXES,
     SHAPES,
-    Axis,
+    SignalAxis,
 )
 
 from .flying import fly
@@ -80,7 +80,7 @@ def test_areas() -> None:
 
 @EACH
 @pytest.mark.parametrize("axis", RATE_AXES)
-def test_the_attitude_is_the_integral_of_the_rate(signal: Signal, axis: Axis) -> None:
+def test_the_attitude_is_the_integral_of_the_rate(signal: Signal, axis: SignalAxis) -> None:
     states = fly(vehicle(replace(signal, axis=axis)))
     index = RATE_AXES.index(axis)
     for state in states[:: len(states) // 7]:

@@ -12,7 +12,7 @@ from waiting import until
 from atlas_cueing.review import RecordedRun
 from atlas_cueing.scenario import Platform
 from atlas_cueing.telemetry import LiveWriter, live_ring
-from atlas_cueing.telemetry.operator_buttons import Buttons
+from atlas_cueing.telemetry.operator_buttons import OperatorButtons
 from atlas_cueing.viewer import ViewerProcess, play, write_replay
 
 from .browsing import PATIENCE, Opened, needs_browser
@@ -22,7 +22,7 @@ ALLOWED = {"running": ("hold", "park")}
 
 
 def test_a_live_run(browser: Any, platform: Platform) -> None:
-    ring, buttons = live_ring(2.0, 200.0), Buttons()
+    ring, buttons = live_ring(2.0, 200.0), OperatorButtons()
     writer = LiveWriter(ring)
     with ViewerProcess(ring, platform, buttons.press, ALLOWED, title="tumble") as viewer:
         writer.status(0.0, "running", "engaged")

@@ -91,7 +91,7 @@ def test_nothing_cuts_into_the_sphere(server: Any, preset: str) -> None:
 @pytest.mark.parametrize("share", [-1.0, 0.0, 1.0])
 def test_the_telescope_holds_together_over_the_travel(server: Any, preset: str, share: float) -> None:
     platform = load_platform(preset)
-    p = tuple(share * travel for travel in platform.stage_motion_limits().travel)
+    p = tuple(share * travel for travel in platform.stage_limit_values().travel)
     Scene(server, platform).show(Pose(REST.q_WS, p, (0.0, 0.0, 0.0), REST.vehicle_f, REST.felt_f))
     parent = "/bridge/carriage"
     sleeve, middle, inner = (
@@ -123,7 +123,7 @@ def test_the_largest_force_stays_in_the_picture(server: Any, preset: str, larges
     """Wherever the stage is and however the rider is turned, the head of the longest arrow is in a picture of 4 to 3."""
     platform, rng = load_platform(preset), np.random.default_rng(2)
     scene = Scene(server, platform, largest)
-    travel = np.array(platform.stage_motion_limits().travel)
+    travel = np.array(platform.stage_limit_values().travel)
     camera = server.initial_camera
     ahead = (camera.look_at - camera.position) / np.linalg.norm(camera.look_at - camera.position)
     right = np.cross(ahead, (0.0, 0.0, 1.0)) / np.linalg.norm(np.cross(ahead, (0.0, 0.0, 1.0)))

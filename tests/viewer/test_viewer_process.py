@@ -13,7 +13,7 @@ from waiting import until
 from atlas_cueing.errors import InputError
 from atlas_cueing.scenario import Platform
 from atlas_cueing.telemetry import LiveWriter, live_ring
-from atlas_cueing.telemetry.operator_buttons import Buttons
+from atlas_cueing.telemetry.operator_buttons import OperatorButtons
 from atlas_cueing.viewer import ViewerProcess
 
 
@@ -31,7 +31,7 @@ def state_of(pid: int) -> str:
 
 
 def test_a_stopped_view_does_not_hold_the_writer_up(platform: Platform, capfd: pytest.CaptureFixture[str]) -> None:
-    ring, buttons = live_ring(1.0, 300.0), Buttons()
+    ring, buttons = live_ring(1.0, 300.0), OperatorButtons()
     writer = LiveWriter(ring)
     with ViewerProcess(ring, platform, buttons.press, {}) as viewer:
         assert viewer.pid
@@ -52,7 +52,7 @@ def test_a_stopped_view_does_not_hold_the_writer_up(platform: Platform, capfd: p
 
 
 def test_a_stopped_view_can_be_closed(platform: Platform) -> None:
-    viewer = ViewerProcess(live_ring(1.0, 300.0), platform, Buttons().press, {})
+    viewer = ViewerProcess(live_ring(1.0, 300.0), platform, OperatorButtons().press, {})
     assert viewer.pid
     os.kill(viewer.pid, signal.SIGSTOP)
     viewer.close()
@@ -60,23 +60,23 @@ def test_a_stopped_view_can_be_closed(platform: Platform) -> None:
 
 
 def test_a_port_in_use(platform: Platform) -> None:
-    with ViewerProcess(live_ring(1.0, 300.0), platform, Buttons().press, {}) as viewer:
+    with ViewerProcess(live_ring(1.0, 300.0), platform, OperatorButtons().press, {}) as viewer:
         port = int(viewer.url.rsplit(":", 1)[1])
         with pytest.raises(InputError, match=f"the view could not be started: port {port}: in use"):
-            ViewerProcess(live_ring(1.0, 300.0), platform, Buttons().press, {}, port=port)
+            ViewerProcess(live_ring(1.0, 300.0), platform, OperatorButtons().press, {}, port=port)
 
 
 def test_without_viser(platform: Platform, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "viser", None)
     with pytest.raises(InputError, match=r"pip install 'atlas_cueing\[live\]'"):
-        ViewerProcess(live_ring(1.0, 300.0), platform, Buttons().press, {})
+        ViewerProcess(live_ring(1.0, 300.0), platform, OperatorButtons().press, {})
 
 
 def test_it_ends_when_its_parent_is_gone(platform: Platform) -> None:
     here, there = os.pipe()
 
     def start_and_vanish() -> None:
-        viewer = ViewerProcess(live_ring(1.0, 300.0), platform, Buttons().press, {})
+        viewer = ViewerProcess(live_ring(1.0, 300.0), platform, OperatorButtons().press, {})
         os.write(there, f"{viewer.pid} ".encode())
         os._exit(0)
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from atlas_cueing.live.control.guard import Guard
 from atlas_cueing.live.control.platform_controller import command_of
-from atlas_cueing.run import build
+from atlas_cueing.run import build_pipeline
 from atlas_cueing.scenario import Scenario
 from atlas_cueing.signals import Tick, VehicleState
 from atlas_cueing.vehicles import JsbsimVehicle
@@ -70,10 +70,10 @@ def measure(bench: Bench) -> Iterator[Row]:
     ticks = flown(blend)
     states, dt = [tick.vehicle for tick in ticks], ticks[1].vehicle.time
     stages = {f"cueing {name}": Stage(partial(_cueing, scenario, dt, states)) for name, scenario in scenarios.items()}
-    stages["smoothing"] = Stage(lambda: (build(blend, dt).smoothing.step, [tick.cue for tick in ticks]))
-    stages["wheels"] = Stage(lambda: (build(blend, dt).wheels.speeds, [tick.motion for tick in ticks]))
+    stages["smoothing"] = Stage(lambda: (build_pipeline(blend, dt).smoothing.step, [tick.cue for tick in ticks]))
+    stages["wheels"] = Stage(lambda: (build_pipeline(blend, dt).wheels.speeds, [tick.motion for tick in ticks]))
     stages["guard"] = Stage(partial(_guard, blend, dt, ticks))
-    stages["pipeline"] = Stage(lambda: (build(blend, dt).block, list(_blocks(states))))
+    stages["pipeline"] = Stage(lambda: (build_pipeline(blend, dt).block, list(_blocks(states))))
     stages["advance"] = Stage(lambda: _vehicle(blend, len(ticks)))
     stages["bare"] = Stage(lambda: _bare(len(ticks)))
     calls = {axes: ruckig_call(axes) for axes in (1, 3)}
@@ -91,7 +91,7 @@ def measure(bench: Bench) -> Iterator[Row]:
 def flown(scenario: Scenario) -> list[Tick]:
     """All ticks of a flight."""
     vehicle = JsbsimVehicle(scenario.flight)
-    pipeline = build(scenario, vehicle.dt)
+    pipeline = build_pipeline(scenario, vehicle.dt)
     ticks = [pipeline.step(vehicle.state)]
     while vehicle.advance():
         ticks.append(pipeline.step(vehicle.state))
@@ -134,13 +134,13 @@ def _blocks(states: list[VehicleState]) -> Iterator[list[VehicleState]]:
 
 
 def _cueing(scenario: Scenario, dt: float, states: list[VehicleState]) -> tuple[Callable[[Any], object], Sequence[Any]]:
-    return build(scenario, dt).cueing.step, states
+    return build_pipeline(scenario, dt).cueing.step, states
 
 
 def _guard(scenario: Scenario, dt: float, ticks: list[Tick]) -> tuple[Callable[[Any], object], Sequence[Any]]:
     """A guard that lets all of them through, or the time is that of something else."""
     platform = scenario.platform
-    guard = Guard(dt, platform.wheel_speed_limits(), platform.stage_motion_limits())
+    guard = Guard(dt, platform.wheel_limit_values(), platform.stage_limit_values())
     commands = [command_of(tick) for tick in ticks]
     guard.start(commands[0])
     for command in commands[1:]:

@@ -5,7 +5,7 @@
 from math import exp
 
 
-class UsefulShare:
+class AdaptiveGain:
     """Share g, 0 to 1, of an imagined motion that would have left the least rms error over the last while.
 
     A demand d that is met by g times the acceleration a of an imagined stage leaves an error of mean square
@@ -22,7 +22,7 @@ class UsefulShare:
         self._useful = self._spent = 0.0
         self.share = first
 
-    def learn(self, demand: float, imagined: float) -> None:
+    def update(self, demand: float, imagined: float) -> None:
         """Take in one tick: the demand and the imagined acceleration, both m/s^2."""
         self._useful += self._forget * (demand * imagined - self._useful)
         self._spent += self._forget * (imagined * imagined - self._spent)

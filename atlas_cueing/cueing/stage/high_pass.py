@@ -15,7 +15,7 @@ from math import e, exp, pi, tanh
 from ..damping import CriticalDamping
 
 
-class OnsetFilter:
+class HighPass:
     """One axis of the stage: demand (m/s^2) in, position, velocity and acceleration out."""
 
     def __init__(self, dt: float, onset: float, recentre: float, bandwidth: float, bound: float) -> None:

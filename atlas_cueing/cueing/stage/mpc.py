@@ -11,8 +11,8 @@ there is none, to its end, where the stage stands.
 from itertools import pairwise
 
 from ..parameters import HorizonParameters
-from .adaptive_gain import UsefulShare
-from .high_pass import OnsetFilter, demand_bound
+from .adaptive_gain import AdaptiveGain
+from .high_pass import HighPass, demand_bound
 from .mpc_qp import AxisLimits, HorizonProblem
 from .mpc_unconstrained import Plan
 
@@ -38,8 +38,8 @@ class HorizonAxis:
         self._period = planning_ticks(dt, parameters.planning_rate)
         self._ticks = block_ticks(self._period, parameters.length / dt, parameters.blocks)
         bound = parameters.excess * demand_bound(onset, *limits[:3])
-        self._imagined = OnsetFilter(dt, onset, recentre, bandwidth, bound)
-        self._useful = UsefulShare(dt, parameters.memory, parameters.first_share, parameters.doubt)
+        self._imagined = HighPass(dt, onset, recentre, bandwidth, bound)
+        self._useful = AdaptiveGain(dt, parameters.memory, parameters.first_share, parameters.doubt)
         self.problem = HorizonProblem([ticks * dt for ticks in self._ticks], onset, parameters.fade, limits)
         self._to_next = delay % self._period
         self._p = self._v = self._a = 0.0
@@ -50,7 +50,7 @@ class HorizonAxis:
     def step(self, demand: float) -> tuple[float, float, float]:
         """Position, velocity and acceleration after one tick; a demand that is there at the start counts as lasting."""
         share = self._useful.share
-        self._useful.learn(demand, self._imagined.step(demand)[2])
+        self._useful.update(demand, self._imagined.step(demand)[2])
         if not self._to_next:
             self._plan(share * self._imagined.fleeting)
             self._to_next = self._period

@@ -12,13 +12,13 @@ from typing import TypeAlias
 from ...rotation import ZERO, Quat, Vec3, add, cross, flip, rotate, scale, subtract
 from ...signals import STANDARD_GRAVITY, StageLimits
 from ..parameters import StageParameters
-from .high_pass import OnsetFilter, demand_bound
+from .high_pass import HighPass, demand_bound
 from .mpc import HorizonAxis
 
 _GRAVITY_W: Vec3 = (0.0, 0.0, -STANDARD_GRAVITY)
 
 
-StageAxis: TypeAlias = HorizonAxis | OnsetFilter
+StageAxis: TypeAlias = HorizonAxis | HighPass
 """One axis of the stage: `step` gives position (m), velocity and acceleration one tick on, for a demand in m/s^2."""
 
 
@@ -62,6 +62,6 @@ def _axis(i: int, dt: float, parameters: StageParameters, limits: StageLimits) -
     onset, recentre, bandwidth = parameters.onset[i], parameters.recentre[i], parameters.bandwidth
     travel, speed, acceleration = min(limits.travel[i], parameters.travel[i]), limits.speed[i], limits.acceleration[i]
     if parameters.horizon is None:
-        return OnsetFilter(dt, onset, recentre, bandwidth, demand_bound(onset, travel, speed, acceleration))
+        return HighPass(dt, onset, recentre, bandwidth, demand_bound(onset, travel, speed, acceleration))
     limit = travel, speed, acceleration, limits.jerk[i]
     return HorizonAxis(dt, onset, recentre, bandwidth, limit, parameters.horizon, i)

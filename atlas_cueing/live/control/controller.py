@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 from ...errors import VehicleError
 from ...rotation import continuous
 from ...signals import Tick, VehicleState
-from ..input.source import Intake, Source
+from ..input.source import Source, SourceReading
 from .guard import Command, Guard
-from .input_monitor import GOOD_TO_ENGAGE, Supervisor
-from .platform_controller import Ride, command_of, no_vehicle, standing
+from .input_monitor import GOOD_TO_ENGAGE, InputMonitor
+from .platform_controller import PlatformController, command_of, no_vehicle, standing
 from .state_machine import Event, State
 
 MOST_MISSED = 5  # deadlines in a row; with one more the platform is stopped
@@ -24,7 +24,7 @@ _AWAY = (State.ENGAGING, State.RUNNING, State.HOLDING)
 
 
 @dataclass(frozen=True, slots=True)
-class Wishes:
+class OperatorInputs:
     """What is asked from outside.
 
     buttons: what the operator has pressed since the last call: engage, hold, park, reset.
@@ -40,7 +40,7 @@ class Wishes:
 
 
 @dataclass(slots=True)
-class Ended:
+class RunOutcome:
     """How a run ended: result is ok, vehicle_failed, input_lost, fault or stopped; `faults` and `dropped` samples counted."""
 
     result: str = "ok"
@@ -54,19 +54,19 @@ class Ended:
             self.result, self.reason = result, reason
 
 
-class Conductor:
+class LiveController:
     """Holds ride, guard and source together. `tick` never raises, and every command is inside every limit."""
 
-    def __init__(self, ride: Ride, guard: Guard, source: Source, wishes: Wishes) -> None:
+    def __init__(self, ride: PlatformController, guard: Guard, source: Source, wishes: OperatorInputs) -> None:
         """Parked, with nothing heard of the vehicle yet."""
         self._ride, self._guard, self._source, self._wishes = ride, guard, source, wishes
-        self._supervisor = Supervisor()
+        self._supervisor = InputMonitor()
         self._finishing = False
         self._before = ride.motion  # of the last command that went out
         self._known = no_vehicle(0.0)  # as in the last tick
-        self.intake = Intake(None, float("inf"), 0, 0, False, False, "")
+        self.intake = SourceReading(None, float("inf"), 0, 0, False, False, "")
         self.changes: list[tuple[State, str]] = [(State.PARKED, "")]  # not told yet
-        self.ended = Ended()
+        self.ended = RunOutcome()
 
     @property
     def state(self) -> State:

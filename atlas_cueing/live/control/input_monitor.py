@@ -2,7 +2,7 @@
 
 # mypyc: runs every tick
 
-from ..input.source import Intake
+from ..input.source import SourceReading
 from .state_machine import Event, State
 
 STALE = 0.1  # s without a good sample
@@ -16,7 +16,7 @@ RESUME_TIME = 1.0  # s, likewise after a hold
 _FOLLOWING = (State.ENGAGING, State.RUNNING)
 
 
-class Supervisor:
+class InputMonitor:
     """Watches the input, a tick at a time."""
 
     def __init__(self) -> None:
@@ -27,7 +27,7 @@ class Supervisor:
         """How long the input has been good at `time`, s."""
         return 0.0 if self._good_since is None else time - self._good_since
 
-    def watch(self, time: float, state: State, moving: bool, intake: Intake) -> list[tuple[Event, str]]:
+    def watch(self, time: float, state: State, moving: bool, intake: SourceReading) -> list[tuple[Event, str]]:
         """Events of this tick at `time` (s, real), each with its reason.
 
         moving: whether the platform follows the cue, or is not at rest yet.
@@ -43,7 +43,7 @@ class Supervisor:
             return [(Event.BAD, trouble)]
         return []
 
-    def _while_holding(self, time: float, moving: bool, intake: Intake) -> list[tuple[Event, str]]:
+    def _while_holding(self, time: float, moving: bool, intake: SourceReading) -> list[tuple[Event, str]]:
         if intake.age > LOST:
             return [(Event.LOST, f"no input for {intake.age:.2f} s")]
         if not self.held and not moving and self.good_for(time) >= GOOD_TO_RESUME:
@@ -51,7 +51,7 @@ class Supervisor:
         return []
 
 
-def _trouble(intake: Intake) -> str:
+def _trouble(intake: SourceReading) -> str:
     """What is wrong with the input, or nothing."""
     if intake.age > STALE:
         return f"no input for {intake.age:.2f} s" if intake.vehicle else "no input yet"

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from math import hypot, isfinite
 
-from ...cueing import Cues
+from ...cueing import CueSource
 from ...errors import PlanningError
 from ...pipeline import Pipeline
 from ...rotation import (
@@ -27,7 +27,15 @@ from ...signals import STANDARD_GRAVITY, Cue, Motion, Tick, VehicleState, WheelS
 from .guard import Command
 from .input_monitor import ENGAGE_TIME, RESUME_TIME
 from .state_machine import Event, State, after
-from .trajectories import Blend, Course, Follow, Halt, Home, Stay, calm_time
+from .trajectories import (
+    EngageTrajectory,
+    FollowTrajectory,
+    HoldTrajectory,
+    ParkTrajectory,
+    StopTrajectory,
+    Trajectory,
+    calm_time,
+)
 
 AT_REST = 1e-3  # rad/s, m/s, and a tenth of it per s^2: below this the platform stands (assumed; nobody feels it)
 AT_HOME = 1e-3  # rad and m from upright in the centre
@@ -42,7 +50,7 @@ def no_vehicle(time: float) -> VehicleState:
     return VehicleState(time, IDENTITY, ZERO, _REST_FORCE)
 
 
-class Ride:
+class PlatformController:
     """Takes the platform from state to state, and gives every tick; it starts parked."""
 
     def __init__(
@@ -52,17 +60,17 @@ class Ride:
         self._new_pipeline, self._J, self._travel, self._dt = new_pipeline, sphere_from_wheels, travel, dt
         self.state = State.PARKED
         self._pipeline = new_pipeline()
-        self._cueing: Cues | None = None
+        self._cueing: CueSource | None = None
         self._cue = _HOME
         self._motion = self._pipeline.smoothing.step(_HOME)
-        self._course: Course = Stay(self._motion)
+        self._course: Trajectory = HoldTrajectory(self._motion)
         self._asked = self._motion.q_WS  # by the cue of the last tick
-        self._unused: Cues | None = self._pipeline.cueing
+        self._unused: CueSource | None = self._pipeline.cueing
 
     @property
     def blending(self) -> bool:
         """On its way to the cue, or on it."""
-        return isinstance(self._course, Blend | Follow)
+        return isinstance(self._course, EngageTrajectory | FollowTrajectory)
 
     @property
     def moving(self) -> bool:
@@ -96,7 +104,7 @@ class Ride:
         way = subtract(self._cue.p_WS_W, self._motion.p_WS_W)
         calm = calm_time(geodesic(self._motion.q_WS, self._cue.q_WS), norm(way))
         duration = min(max(calm, ENGAGE_TIME if fresh else RESUME_TIME), LONGEST_BLEND)
-        self._course = Blend(self._motion, self._cue, self._dt, duration)
+        self._course = EngageTrajectory(self._motion, self._cue, self._dt, duration)
 
     def step(self, vehicle: VehicleState) -> Tick:
         """The next tick, in any state but those of a fault. Raises PlanningError for a cue that is not finite."""
@@ -125,13 +133,13 @@ class Ride:
 
     def arrived(self) -> bool:
         """Whether what the state is about is done; drives home as soon as it stands."""
-        if self.state is State.PARKING and isinstance(self._course, Halt) and self._arrived():
-            self._course = Home(self._motion, self._dt)
+        if self.state is State.PARKING and isinstance(self._course, StopTrajectory) and self._arrived():
+            self._course = ParkTrajectory(self._motion, self._dt)
         match self.state:
             case State.ENGAGING:
-                return isinstance(self._course, Blend) and self._course.arrived
+                return isinstance(self._course, EngageTrajectory) and self._course.arrived
             case State.PARKING:
-                return isinstance(self._course, Home) and self._arrived() and _is_home(self._motion)
+                return isinstance(self._course, ParkTrajectory) and self._arrived() and _is_home(self._motion)
             case State.FAULT_STOPPING:
                 return _is_still(self._motion)
         return False
@@ -148,15 +156,15 @@ class Ride:
         """What a new state begins with."""
         match self.state:
             case State.RUNNING:
-                self._course = Follow()
+                self._course = FollowTrajectory()
             case State.HOLDING | State.PARKING:
                 if before is State.STOPPED:
                     self._restart()
-                self._course = Halt(self._motion, self._dt, self._travel)
+                self._course = StopTrajectory(self._motion, self._dt, self._travel)
             case State.PARKED:
-                self._cueing, self._course = None, Stay(self._motion)
+                self._cueing, self._course = None, HoldTrajectory(self._motion)
             case State.ENGAGING:
-                self._course = Stay(self._motion)
+                self._course = HoldTrajectory(self._motion)
 
     def _restart(self) -> None:
         """After a fault: smoothing from where the guard's stop has ended, and cueing from nothing."""

@@ -38,7 +38,7 @@ _OTHER_WAY = 1.5 * pi  # rad; a turn that has grown beyond it on the way to the 
 _PEAK_RATE, _PEAK_BEND = 1.875, 10.0 / sqrt(3.0)  # of `smoothstep`, per duration and per duration^2
 
 
-class Course(Protocol):
+class Trajectory(Protocol):
     """A way to go, asked once a tick."""
 
     def step(self, cue: Cue) -> Cue:
@@ -49,7 +49,7 @@ class Course(Protocol):
         """Whether it has led where it goes to."""
 
 
-class Follow:
+class FollowTrajectory:
     """The cue itself."""
 
     arrived = True
@@ -59,7 +59,7 @@ class Follow:
         return cue
 
 
-class Stay:
+class HoldTrajectory:
     """At rest where the motion is."""
 
     arrived = True
@@ -72,7 +72,7 @@ class Stay:
         return Cue(cue.time, self._q, ZERO, self._p, ZERO, ZERO)
 
 
-class Halt:
+class StopTrajectory:
     """To rest: rates fade out by 1 - smoothstep, faster where the travel is about to end."""
 
     def __init__(self, motion: Motion, dt: float, travel: Vec3) -> None:
@@ -105,7 +105,7 @@ class Halt:
         return self._elapsed >= self._time
 
 
-class Home:
+class ParkTrajectory:
     """From rest to upright in the centre, the shorter way round, in one smooth move."""
 
     def __init__(self, motion: Motion, dt: float) -> None:
@@ -130,7 +130,7 @@ class Home:
         return self._elapsed >= self.duration
 
 
-class Blend:
+class EngageTrajectory:
     """From rest to a cue that moves by itself: x = s x_cue + (1 - s) x_0 with s = smoothstep(t / T).
 
     On the sphere the same is done tick by tick: the orientation takes the share s of the cue's own turn, and then, of what is

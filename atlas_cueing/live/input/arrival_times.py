@@ -5,7 +5,7 @@ _DRIFT = SETTLING * SETTLING / (2.0 - SETTLING)  # share taken into the period (
 RANGE = 4.0  # the sender's true period lies within this factor of the nominal one (assumed)
 
 
-class Arrivals:
+class ArrivalTimes:
     """Tracks a regular sender with an alpha-beta filter on arrival times.
 
     A sample's time is where the filter expects it, moved by a fifth of the error: a jitter of the network of s (rms) leaves

@@ -13,7 +13,7 @@ ANGULAR_ACCELERATION = 20.0  # rad/s^2 that a forward-Euler model may leave out 
 LONGEST_EXPLAINED = 0.1  # s; over a longer gap rates explain no more than over this one
 
 
-def departure(before: VehicleState, now: VehicleState, jitter: float = 0.0) -> str:
+def discontinuity(before: VehicleState, now: VehicleState, jitter: float = 0.0) -> str:
     """Why `now` does not follow from `before`; empty when it does.
 
     The attitude may differ from what the rates of both explain by JUMP_ANGLE, by what an angular acceleration makes of their

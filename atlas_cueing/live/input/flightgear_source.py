@@ -7,10 +7,10 @@ from ...rotation import ZERO, continuous
 from ...signals import VehicleState
 from ...vehicles import Bounds
 from ...vehicles.flightgear import PacketError, decode
-from .arrival_times import Arrivals
-from .discontinuity import departure
+from .arrival_times import ArrivalTimes
+from .discontinuity import discontinuity
 from .extrapolation import Extrapolation
-from .source import Intake
+from .source import SourceReading
 from .udp import Address, Datagram, Receiver
 
 MAX_PACKETS = 8  # taken in one read: 67 ms at 120 Hz, and some 0.2 ms of work (assumed)
@@ -32,7 +32,7 @@ class FlightgearSource:
         """Args: receiver: where datagrams come from; rate_hz: nominal packets per second; bounds: of a believable state."""
         self._receiver = receiver
         self._bounds = Bounds() if bounds is None else bounds
-        self._arrivals = Arrivals(rate_hz)
+        self._arrivals = ArrivalTimes(rate_hz)
         self._course: Extrapolation | None = None
         self._last: VehicleState | None = None  # of the newest good packet, with its arrival as its time
         self._content = b""  # of the same packet
@@ -43,7 +43,7 @@ class FlightgearSource:
         self._jumped = False
         self._reason = ""
 
-    def read(self, time: float, advance: bool) -> Intake:  # noqa: ARG002 - the simulator owns its time
+    def read(self, time: float, advance: bool) -> SourceReading:  # noqa: ARG002 - the simulator owns its time
         """See `Source`. Takes at most MAX_PACKETS packets."""
         self._dropped, self._jumped, self._reason = 0, False, ""
         for _ in range(MAX_PACKETS):
@@ -53,7 +53,7 @@ class FlightgearSource:
             self._take(datagram, time)
         vehicle = self._course.at(time) if self._course else None
         age = time - self._last.time if self._last else inf
-        return Intake(vehicle, age, self._dropped, self._bad_in_a_row, self._jumped, False, self._reason)
+        return SourceReading(vehicle, age, self._dropped, self._bad_in_a_row, self._jumped, False, self._reason)
 
     def pin(self) -> None:
         """See `Source`. Without a good packet yet there is nobody to listen to, and nothing is pinned."""
@@ -108,10 +108,10 @@ class FlightgearSource:
         if gap > max(LONGEST_GAP, LONGEST_GAP_PERIODS * self._arrivals.period):
             return f"nothing came for {gap:.3g} s"
         jitter = self._arrivals.period
-        objection = departure(self._last, state, jitter)
+        objection = discontinuity(self._last, state, jitter)
         if not objection:
             return ""
         suspect, self._suspect = self._suspect, state
-        if suspect is not None and not departure(suspect, state, jitter):
+        if suspect is not None and not discontinuity(suspect, state, jitter):
             return objection
         raise PacketError(objection)

@@ -9,7 +9,7 @@ from ...signals import VehicleState
 
 
 @dataclass(frozen=True, slots=True)
-class Intake:
+class SourceReading:
     """What a source knows at the asked time.
 
     vehicle: the vehicle at the asked time, which is its `time`; None until a first good sample.
@@ -33,7 +33,7 @@ class Intake:
 class Source(Protocol):
     """A vehicle that can be asked for at any time."""
 
-    def read(self, time: float, advance: bool) -> Intake:
+    def read(self, time: float, advance: bool) -> SourceReading:
         """The state at `time` (s since the loop's start, monotonic, strictly increasing from call to call).
 
         advance: False lets the vehicle's own time stand still, as in a paused simulator; only sources that own their time obey.

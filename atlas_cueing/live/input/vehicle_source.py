@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from ...rotation import ZERO, continuous
 from ...signals import Vehicle, VehicleState
-from .discontinuity import departure
+from .discontinuity import discontinuity
 from .interpolation import Interpolation
-from .source import Intake
+from .source import SourceReading
 
 MAX_STEPS = 50  # of the model in one read: 50 ms at 1000 Hz, about a millisecond of JSBSim (assumed)
 
@@ -35,7 +35,7 @@ class VehicleSource:
         self._over = False
         self._jump = ""
 
-    def read(self, time: float, advance: bool) -> Intake:
+    def read(self, time: float, advance: bool) -> SourceReading:
         """See `Source`. Raises what the vehicle raises, when it is stepped past its last good state."""
         self._jump = ""
         if advance and not self._over:
@@ -46,7 +46,7 @@ class VehicleSource:
         if self._over or not advance:
             state = replace(state, w_NB_B=ZERO)
         self._q_NB = state.q_NB
-        return Intake(state, 0.0, 0, 0, bool(self._jump), self._over, self._jump)
+        return SourceReading(state, 0.0, 0, 0, bool(self._jump), self._over, self._jump)
 
     def pin(self) -> None:
         """There is only one sender."""
@@ -67,7 +67,7 @@ class VehicleSource:
         self._elapsed = min(self._elapsed, self._next.time - self._start)
 
     def _step(self, state: VehicleState) -> None:
-        jump = departure(self._next, state)
+        jump = discontinuity(self._next, state)
         self._between = None if jump else Interpolation(self._next, state)
         self._next = state
         self._jump = jump or self._jump

@@ -23,7 +23,7 @@ from ...recording.wire import live_log_times
 from ...rotation import Vec3
 from ...signals import LIVE_TOPICS
 from ...telemetry import Ring, RingReader
-from ...telemetry.child_process import Forked, Left
+from ...telemetry.child_process import ChildProcess, Left
 from ...telemetry.messages import END, STATUS, TICK, status
 from ...telemetry.origin_gate import OriginGate, listen
 
@@ -53,7 +53,7 @@ class FoxgloveProcess:
         with listen("127.0.0.1", port) as listener:
             self.port: int = listener.getsockname()[1]
             feed = Feed(ring, head_S, started_ns)
-            self._process = Forked(lambda left: asyncio.run(_serve(feed, listener, left)))
+            self._process = ChildProcess(lambda left: asyncio.run(_serve(feed, listener, left)))
 
     @property
     def pid(self) -> int:

@@ -6,7 +6,7 @@ from time import monotonic, sleep
 
 from ...recording import McapRecorder
 from ...telemetry import Ring
-from ...telemetry.child_process import Ended, Forked, Left
+from ...telemetry.child_process import ChildProcess, Left, ProcessExit
 from .ring_recorder import Recorded, RingRecorder
 
 POLL_S = 0.01  # s between two looks at the ring
@@ -28,7 +28,7 @@ class RecorderProcess:
         announce: tell every change of state on stderr.
         """
         follower = RingRecorder(ring, recorder, announce=announce)
-        self._process = Forked(lambda left: _follow(follower, left))
+        self._process = ChildProcess(lambda left: _follow(follower, left))
         recorder.abandon()
 
     @property
@@ -64,6 +64,6 @@ def _follow(recorder: RingRecorder, left: Left) -> bytes:
         sleep(POLL_S)
 
 
-def _how(ended: Ended) -> str:
+def _how(ended: ProcessExit) -> str:
     kind = "signal" if ended.status < 0 else "exit status"
     return f"the recorder's process ended with {kind} {abs(ended.status)}"

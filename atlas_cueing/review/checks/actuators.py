@@ -44,7 +44,7 @@ def limit_shares(run: RecordedRun) -> dict[str, Array]:
 
 
 def _wheels(run: RecordedRun) -> _Chain:
-    limits, flight = run.platform.wheel_speed_limits(), run.flight
+    limits, flight = run.platform.wheel_limit_values(), run.flight
     return _Chain(
         places=((), [f"/wheels w{i}_rad_s" for i in (1, 2, 3)], [f"/wheels a{i}_rad_s2" for i in (1, 2, 3)]),
         unit=("rad", "rad/s", "rad/s2", "rad/s3"),
@@ -54,7 +54,7 @@ def _wheels(run: RecordedRun) -> _Chain:
 
 
 def _stage(run: RecordedRun) -> _Chain:
-    limits, flight = run.platform.stage_motion_limits(), run.flight
+    limits, flight = run.platform.stage_limit_values(), run.flight
     p, v, a = ([f"/motion {name}{axis}_{unit}" for axis in "xyz"] for name, unit in (("p", "m"), ("v", "m_s"), ("a", "m_s2")))
     return _Chain(
         places=(p, v, a),

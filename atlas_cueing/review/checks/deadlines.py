@@ -19,7 +19,7 @@ def timing(run: RecordedRun, field: str) -> Array:
     return run.log.column(TIMING.name, field)[: len(run.flight.time)]
 
 
-def check_punctuality(run: RecordedRun) -> list[Finding]:
+def check_deadlines(run: RecordedRun) -> list[Finding]:
     """Real time is behind the run's own by just the deadlines that were missed, and no tick began early."""
     if not is_live(run) or len(run.flight.time) < 2 or len(timing(run, "elapsed_s")) != len(run.flight.time):
         return []

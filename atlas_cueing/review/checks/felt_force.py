@@ -12,7 +12,7 @@ _GRAVITY_W = np.array([0.0, 0.0, -9.80665])
 _FRD = np.array([1.0, -1.0, -1.0])
 
 
-def check_sensation(run: RecordedRun) -> list[Finding]:
+def check_felt_force(run: RecordedRun) -> list[Finding]:
     """Specific force and rate at the rider's head in cabin FRD, f = R_SW (a + alpha x r + w x (w x r) - g), and the angle."""
     flight = run.flight
     force, rate = felt_again(run)

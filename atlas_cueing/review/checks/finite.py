@@ -6,7 +6,7 @@ from ..finding import Finding
 from ..recorded_run import RecordedRun
 
 
-def check_numbers(run: RecordedRun) -> list[Finding]:
+def check_finite(run: RecordedRun) -> list[Finding]:
     """Fields that are not finite anywhere, and flags that are neither 0 nor 1."""
     found = []
     for topic, table in run.log.tables.items():

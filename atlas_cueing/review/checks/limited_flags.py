@@ -10,7 +10,7 @@ ANGLE = np.radians(0.0101)  # smoothing calls a lag of 0.01 deg met, and one of 
 DISTANCE = 1.01e-4  # m
 
 
-def check_honesty(run: RecordedRun) -> list[Finding]:
+def check_limited_flags(run: RecordedRun) -> list[Finding]:
     """Ticks at which the motion lags behind the cue and no flag says so."""
     flight = run.flight
     free = flight.limited == 0.0

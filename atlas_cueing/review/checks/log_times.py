@@ -12,7 +12,7 @@ SIMULATED = 946_684_800_000_000_000  # ns; 2000-01-01T00:00:00Z, from where simu
 TRANSFORMS = 2.0 / 60.0  # s without a /tf, beside a tick; one is due every sixtieth
 
 
-def check_stamps(run: RecordedRun) -> list[Finding]:
+def check_log_times(run: RecordedRun) -> list[Finding]:
     """Log time of each message: simulated time from 2000 on or, in a live log, real time elapsed from its start on; and /tf."""
     tables = {topic.name: run.log.tables[topic.name] for topic in LIVE_TOPICS if topic.name in run.log.tables}
     found = []

@@ -55,7 +55,7 @@ def tick_error(run: RecordedRun) -> Array:
     The wheels' bound through J, and as much again of the commutator when the axis turns through the angle |Omega| h.
     """
     h = np.diff(run.flight.time)[:, None]
-    jerk = np.linalg.norm(np.abs(run.sphere_from_wheels()) @ np.array(run.platform.wheel_speed_limits().jerk))
+    jerk = np.linalg.norm(np.abs(run.sphere_from_wheels()) @ np.array(run.platform.wheel_limit_values().jerk))
     rate = np.linalg.norm(run.flight.motion_w_W, axis=1)
     fastest = np.maximum(rate[:-1], rate[1:])[:, None]
     allowed: Array = TURN * jerk * np.abs(h) ** 3 * (1.0 + fastest * np.abs(h)) + ROUNDING

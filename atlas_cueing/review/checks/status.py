@@ -13,7 +13,7 @@ BROKEN = ("fail", "fault", "interrupt", "stopped")
 JUMP = np.radians(0.6)  # a run notes jumps from 0.5 deg on; near that bound two ways of reckoning may differ
 
 
-def check_course(run: RecordedRun) -> list[Finding]:
+def check_status(run: RecordedRun) -> list[Finding]:
     """The run's result, states of failure, and jumps of the vehicle's attitude that no state tells of."""
     metadata = run.log.metadata
     result, reason = metadata.get("result", ""), metadata.get("reason", "")

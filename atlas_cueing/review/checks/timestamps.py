@@ -10,7 +10,7 @@ UNEVEN = 1e-3  # of a step; times are step counts times dt, exact to 1e-12 of a 
 GAP = 1.5  # steps; from here on a tick is missing
 
 
-def check_clock(run: RecordedRun) -> list[Finding]:
+def check_timestamps(run: RecordedRun) -> list[Finding]:
     """Ticks missing from one topic or from all, topics that disagree on the time, time that is uneven or runs back."""
     times = {topic: run.log.column(topic, "time_s") for topic in TOPICS}
     counts = {topic: len(time) for topic, time in times.items()}

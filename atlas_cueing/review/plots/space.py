@@ -18,7 +18,7 @@ _EYE = {"x": -1.35, "y": -1.35, "z": 0.9}  # from behind on the right: forward i
 
 def in_space(run: RecordedRun) -> Any:
     """The stage's path in its box, and where nose and crown of the cabin have pointed; a dot where each began."""
-    flight, travel = run.flight, np.array(run.platform.stage_motion_limits().travel)
+    flight, travel = run.flight, np.array(run.platform.stage_limit_values().travel)
     titles = ["stage in its travel, m", "directions of the cabin's nose and crown"]
     figure = make_subplots(rows=1, cols=2, specs=[[{"type": "scene"}, {"type": "scene"}]], subplot_titles=titles)
     figure.add_trace(_path(_box(travel), "travel", _TRAVEL), row=1, col=1)

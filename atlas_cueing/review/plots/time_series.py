@@ -48,7 +48,7 @@ def over_time(found: Review) -> Any:
         _pair(figure, k + 4, flight.time, DEGREES * flight.vehicle_w_B[:, k], DEGREES * flight.felt_w[:, k])
     angle = DEGREES * run.log.column("/felt", "direction_error_rad")[: len(flight.time), None]
     _lines(figure, 7, flight.time, angle, {"angle": FELT})
-    speeds, stage = run.platform.wheel_speed_limits(), run.platform.stage_motion_limits()
+    speeds, stage = run.platform.wheel_limit_values(), run.platform.stage_limit_values()
     _lines(figure, 8, flight.time, flight.wheel_speed, dict(zip(_WHEELS, AXES, strict=True)), speeds.speed)
     _lines(figure, 9, flight.time, flight.wheel_acceleration, dict(zip(_WHEELS, AXES, strict=True)), speeds.acceleration)
     _lines(figure, 10, flight.time, flight.motion_p_W, dict(zip("xyz", AXES, strict=True)), stage.travel)

@@ -14,7 +14,7 @@ from atlas_cueing.cueing import (
     BlendParameters,
     MethodParameters,
     StageParameters,
-    build,
+    build_cueing,
 )
 from atlas_cueing.errors import InputError
 from atlas_cueing.rotation import ZERO, Vec3, from_euler
@@ -63,7 +63,7 @@ def turned_away(found: Planned) -> float:
 
 def lived(method: MethodParameters, states: list[VehicleState], head: Vec3 = ZERO) -> float:
     """What the flight costs by a method that knows only the past."""
-    cueing = build(method, StageParameters(), LIMITS, head, DT)
+    cueing = build_cueing(method, StageParameters(), LIMITS, head, DT)
     cues: list[Cue] = [cueing.step(state) for state in states]
     w = np.array([cue.w_WS_W for cue in cues])
     f, rate = felt([cue.q_WS for cue in cues], w, np.gradient(w, DT, axis=0), [cue.a_WS_W for cue in cues], head)
@@ -128,7 +128,7 @@ def test_the_cabin_begins_with_the_vehicle_s_heading_as_its_own() -> None:
     """And turned to the first force as `blend` is."""
     states = list(standing(from_euler(2.0, 0.3, 0.0), (G * np.sin(0.3), 0.0, -G * np.cos(0.3)), DT, 100))
     found = planned(states)
-    expected = build(BlendParameters(), StageParameters(), LIMITS, ZERO, DT).step(states[0])
+    expected = build_cueing(BlendParameters(), StageParameters(), LIMITS, ZERO, DT).step(states[0])
     assert found.cues[0].q_WS == pytest.approx(expected.q_WS, abs=1e-6)
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from atlas_cueing.cueing import Cues
+from atlas_cueing.cueing import CueSource
 from atlas_cueing.cueing.preview import Preview
 from atlas_cueing.errors import InputError
 from atlas_cueing.rotation import IDENTITY, ZERO
@@ -20,7 +20,7 @@ def state(time: float) -> VehicleState:
 
 
 def test_every_row_is_a_cue() -> None:
-    plan: Cues = made()
+    plan: CueSource = made()
     assert plan.step(state(0.0)) == Cue(0.0, IDENTITY, (0, 1, 2), (3, 4, 5), (6, 7, 8), (9, 10, 11))
     second = plan.step(state(0.1))
     assert second == Cue(0.1, (0, 1, 0, 0), (12, 13, 14), (15, 16, 17), (18, 19, 20), (21, 22, 23))

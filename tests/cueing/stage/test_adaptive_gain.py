@@ -5,15 +5,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from atlas_cueing.cueing.stage.adaptive_gain import UsefulShare
+from atlas_cueing.cueing.stage.adaptive_gain import AdaptiveGain
 
 DT = 0.01
 
 
 def after(demand: np.ndarray, imagined: np.ndarray, memory: float = 15.0, first: float = 0.2, doubt: float = 1e-6) -> float:
-    useful = UsefulShare(DT, memory, first, doubt)
+    useful = AdaptiveGain(DT, memory, first, doubt)
     for d, a in zip(demand.tolist(), imagined.tolist(), strict=True):
-        useful.learn(d, a)
+        useful.update(d, a)
     return useful.share
 
 
@@ -48,7 +48,7 @@ def test_what_was_long_ago_is_forgotten() -> None:
 
 
 def test_it_begins_with_the_first_share_and_leaves_it_as_fast_as_the_doubt_allows() -> None:
-    assert UsefulShare(DT, 15.0, 0.35, 1.0).share == 0.35
+    assert AdaptiveGain(DT, 15.0, 0.35, 1.0).share == 0.35
     a = np.full(50, 0.1)
     shares = [after(a, a, doubt=doubt) for doubt in (1e6, 1e-3, 1e-9)]
     assert shares[0] == pytest.approx(0.2, abs=1e-6)
@@ -58,7 +58,7 @@ def test_it_begins_with_the_first_share_and_leaves_it_as_fast_as_the_doubt_allow
 
 @given(st.lists(st.tuples(st.floats(-1e6, 1e6), st.floats(-100.0, 100.0)), max_size=30), st.floats(0.0, 1.0))
 def test_it_is_a_share_whatever_comes(pairs: list[tuple[float, float]], first: float) -> None:
-    useful = UsefulShare(DT, 15.0, first, 0.01)
+    useful = AdaptiveGain(DT, 15.0, first, 0.01)
     for demand, imagined in pairs:
-        useful.learn(demand, imagined)
+        useful.update(demand, imagined)
         assert 0.0 <= useful.share <= 1.0

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from atlas_cueing.cueing import CLASSICAL_STAGE, StageParameters
-from atlas_cueing.cueing.stage.high_pass import OnsetFilter, demand_bound
+from atlas_cueing.cueing.stage.high_pass import HighPass, demand_bound
 from atlas_cueing.cueing.stage.stage_cueing import StageCueing
 from atlas_cueing.rotation import IDENTITY, ZERO, Vec3
 from atlas_cueing.signals import STANDARD_GRAVITY, StageLimits
@@ -23,7 +23,7 @@ def one_axis(choice: tuple[float, float, float]) -> StageParameters:
 
 def impulse(dt: float, choice: tuple[float, float, float], seconds: float) -> np.ndarray:
     """p, v, a after a demand of one for one tick, a row a tick, in the linear range."""
-    onset = OnsetFilter(dt, *choice, 1e9)
+    onset = HighPass(dt, *choice, 1e9)
     onset.step(0.0)
     return np.array([onset.step(float(i == 0)) for i in range(int(seconds / dt))])
 
@@ -127,7 +127,7 @@ def test_the_fleeting_part_is_the_limited_demand_without_what_lasts() -> None:
     """After a step of the demand it decays with the return to the centre; a huge one is cut down to the bound first."""
     dt, recentre = 0.01, 0.5
     for size, most in ((0.1, 0.1), (1e9, 2.0)):
-        onset = OnsetFilter(dt, 1.0, recentre, 50.0, 2.0)
+        onset = HighPass(dt, 1.0, recentre, 50.0, 2.0)
         onset.step(0.0)
         fleeting = []
         for _ in range(int(4.0 / recentre / dt)):

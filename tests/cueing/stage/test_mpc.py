@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from atlas_cueing.cueing import HorizonParameters
-from atlas_cueing.cueing.stage.high_pass import OnsetFilter
+from atlas_cueing.cueing.stage.high_pass import HighPass
 from atlas_cueing.cueing.stage.mpc import HorizonAxis, block_ticks, planning_ticks
 from atlas_cueing.cueing.stage.mpc_unconstrained import Plan
 
@@ -122,7 +122,7 @@ def test_far_from_the_limits_it_is_the_onset_filter() -> None:
     t = np.arange(0.0, 20.0, DT)
     demand = 0.1 * np.sin(0.8 * t) + 0.1 * np.sin(2.5 * t + 1.0) * (t > 5.0)
     planned = fly(axis(), demand)[1:]
-    onset = OnsetFilter(DT, 0.7, 0.2, 5.0, 1e9)
+    onset = HighPass(DT, 0.7, 0.2, 5.0, 1e9)
     expected = np.array([onset.step(d) for d in demand.tolist()])
     error = np.sqrt(np.mean((planned - expected) ** 2, axis=0) / np.mean(expected**2, axis=0))
     assert np.all(error < 0.06), error

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from atlas_cueing.cueing import StageParameters
-from atlas_cueing.cueing.stage.high_pass import OnsetFilter
+from atlas_cueing.cueing.stage.high_pass import HighPass
 from atlas_cueing.cueing.stage.mpc import HorizonAxis
 from atlas_cueing.cueing.stage.stage_cueing import StageCueing
 from atlas_cueing.rotation import IDENTITY, ZERO, Vec3, conjugate, exp, flip, rotate, scale
@@ -115,7 +115,7 @@ def test_the_head_s_own_acceleration_is_subtracted(planned: StageParameters, hea
 
 
 def test_each_axis_has_its_planner_and_its_limits() -> None:
-    for planned, kind in ((ONSET, OnsetFilter), (StageParameters(), HorizonAxis)):
+    for planned, kind in ((ONSET, HighPass), (StageParameters(), HorizonAxis)):
         assert all(isinstance(axis, kind) for axis in StageCueing(0.01, planned, LIMITS, ZERO)._axes)
     bounds = [axis.problem.bound[-2] for axis in StageCueing(0.01, StageParameters(travel=(0.5, 2.0, 2.0)), LIMITS, ZERO)._axes]
     assert bounds == pytest.approx([0.999 * x for x in (0.5, 1.0, 0.75)])

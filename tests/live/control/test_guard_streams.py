@@ -12,7 +12,7 @@ from smoothing.platforms import PLATFORMS
 
 from atlas_cueing.live.control.guard import Command, Guard
 from atlas_cueing.rotation import ZERO, apply
-from atlas_cueing.run import build
+from atlas_cueing.run import build_pipeline
 from atlas_cueing.scenario import load_scenario
 from atlas_cueing.signals import Motion, Tick, Vehicle
 from atlas_cueing.vehicles import JsbsimVehicle, SignalFlight, SignalVehicle
@@ -36,8 +36,8 @@ def test_flights_pass_untouched(name: str, method: str) -> None:
     scenario = load_scenario(SCENARIOS / f"{name}.toml", [f"cueing.method={method}"])
     flight = scenario.flight
     vehicle: Vehicle = SignalVehicle(flight) if isinstance(flight, SignalFlight) else JsbsimVehicle(flight)
-    pipeline = build(scenario, vehicle.dt)
-    guard = Guard(vehicle.dt, scenario.platform.wheel_speed_limits(), scenario.platform.stage_motion_limits())
+    pipeline = build_pipeline(scenario, vehicle.dt)
+    guard = Guard(vehicle.dt, scenario.platform.wheel_limit_values(), scenario.platform.stage_limit_values())
     for _ in range(1000):
         one = of(pipeline.step(vehicle.state))
         assert guard.check(one) is one, guard.reason

@@ -10,14 +10,14 @@ from atlas_cueing.live.control.input_monitor import (
     GOOD_TO_RESUME,
     LOST,
     STALE,
-    Supervisor,
+    InputMonitor,
 )
 from atlas_cueing.live.control.platform_controller import no_vehicle
 from atlas_cueing.live.control.state_machine import Event, State
-from atlas_cueing.live.input.source import Intake
+from atlas_cueing.live.input.source import SourceReading
 
-GOOD = Intake(no_vehicle(0.0), 0.0, 0, 0, False, False, "")
-NOTHING = Intake(None, inf, 0, 0, False, False, "")
+GOOD = SourceReading(no_vehicle(0.0), 0.0, 0, 0, False, False, "")
+NOTHING = SourceReading(None, inf, 0, 0, False, False, "")
 MOVING = (State.ENGAGING, State.RUNNING)
 TROUBLES = {
     "stale": replace(GOOD, age=STALE + 0.001),
@@ -40,7 +40,7 @@ def test_the_numbers_of_the_specification() -> None:
 @pytest.mark.parametrize("trouble", TROUBLES)
 @pytest.mark.parametrize("moving", [False, True])
 def test_trouble_stops_what_follows_the_cue(state: State, trouble: str, moving: bool) -> None:
-    events = [event for event, _ in Supervisor().watch(1.0, state, moving, TROUBLES[trouble])]
+    events = [event for event, _ in InputMonitor().watch(1.0, state, moving, TROUBLES[trouble])]
     if state is State.HOLDING:
         assert events == ([Event.LOST] if trouble == "nothing" else [])
     else:
@@ -49,7 +49,7 @@ def test_trouble_stops_what_follows_the_cue(state: State, trouble: str, moving: 
 
 @pytest.mark.parametrize("state", State)
 def test_good_input_says_nothing(state: State) -> None:
-    supervisor = Supervisor()
+    supervisor = InputMonitor()
     for k in range(200):
         events = supervisor.watch(0.01 * k, state, True, GOOD)
         assert events == []
@@ -57,11 +57,11 @@ def test_good_input_says_nothing(state: State) -> None:
 
 @pytest.mark.parametrize(("age", "bad"), [(STALE, 0), (0.025, 0), (0.0, BAD_SAMPLES - 1)])
 def test_what_is_borne(age: float, bad: int) -> None:
-    assert Supervisor().watch(1.0, State.RUNNING, True, replace(GOOD, age=age, bad_in_a_row=bad)) == []
+    assert InputMonitor().watch(1.0, State.RUNNING, True, replace(GOOD, age=age, bad_in_a_row=bad)) == []
 
 
 def test_each_trouble_is_told_with_its_reason() -> None:
-    reasons = {name: Supervisor().watch(1.0, State.RUNNING, True, intake)[0][1] for name, intake in TROUBLES.items()}
+    reasons = {name: InputMonitor().watch(1.0, State.RUNNING, True, intake)[0][1] for name, intake in TROUBLES.items()}
     assert reasons == {
         "stale": "no input for 0.10 s",
         "bad": "3 bad samples in a row: NaN",
@@ -71,7 +71,7 @@ def test_each_trouble_is_told_with_its_reason() -> None:
 
 
 def test_good_for_counts_from_the_last_trouble() -> None:
-    supervisor = Supervisor()
+    supervisor = InputMonitor()
     assert supervisor.good_for(5.0) == 0.0
     for time, intake, good in (
         (1.0, GOOD, 0.0),
@@ -84,7 +84,7 @@ def test_good_for_counts_from_the_last_trouble() -> None:
         assert supervisor.good_for(time) == pytest.approx(good)
 
 
-def ready(supervisor: Supervisor, *, moving: bool = False, seconds: float = 2.0) -> float | None:
+def ready(supervisor: InputMonitor, *, moving: bool = False, seconds: float = 2.0) -> float | None:
     """When a hold is said to be over, s after its beginning."""
     for k in range(round(100 * seconds)):
         if (Event.READY, "input is good again") in supervisor.watch(3.0 + 0.01 * k, State.HOLDING, moving, GOOD):
@@ -93,19 +93,19 @@ def ready(supervisor: Supervisor, *, moving: bool = False, seconds: float = 2.0)
 
 
 def test_a_hold_ends_after_half_a_second_of_good_input_at_rest() -> None:
-    assert ready(Supervisor()) == pytest.approx(GOOD_TO_RESUME, abs=0.011)
-    assert ready(Supervisor(), moving=True) is None
+    assert ready(InputMonitor()) == pytest.approx(GOOD_TO_RESUME, abs=0.011)
+    assert ready(InputMonitor(), moving=True) is None
 
 
 def test_an_operators_hold_does_not_end_by_itself() -> None:
-    supervisor = Supervisor()
+    supervisor = InputMonitor()
     supervisor.held = True
     assert ready(supervisor) is None
 
 
 @pytest.mark.parametrize("held", [False, True])
 def test_a_hold_waits_a_second_for_input(held: bool) -> None:
-    supervisor = Supervisor()
+    supervisor = InputMonitor()
     supervisor.held = held
     assert supervisor.watch(1.0, State.HOLDING, False, replace(GOOD, age=LOST)) == []
     assert supervisor.watch(1.1, State.HOLDING, True, replace(GOOD, age=LOST + 0.01)) == [(Event.LOST, "no input for 1.01 s")]

@@ -16,12 +16,12 @@ from atlas_cueing.live.control.trajectories import (
     CALM_RATE,
     CALM_SPEED,
     HALT_TIME,
-    Blend,
-    Course,
-    Follow,
-    Halt,
-    Home,
-    Stay,
+    EngageTrajectory,
+    FollowTrajectory,
+    HoldTrajectory,
+    ParkTrajectory,
+    StopTrajectory,
+    Trajectory,
     calm_time,
     smoothstep,
 )
@@ -59,7 +59,7 @@ def resting(_: float) -> Cue:
     return HOME
 
 
-def drive(course: Course, seconds: float, cue: Callable[[float], Cue] = resting, dt: float = DT) -> list[Cue]:
+def drive(course: Trajectory, seconds: float, cue: Callable[[float], Cue] = resting, dt: float = DT) -> list[Cue]:
     return [course.step(cue(dt * (k + 1))) for k in range(round(seconds / dt))]
 
 
@@ -116,17 +116,17 @@ def test_a_calm_move_is_calm_and_no_calmer_than_need_be(angle: float, distance: 
 
 def test_follow_is_the_cue_and_stay_is_a_place() -> None:
     cue = spinning((0.1, 0.2, 0.3))(1.0)
-    assert Follow().step(cue) is cue
-    still = Stay(motion((0.6, 0.8, 0.0, 0.0), (1.0, 0.0, 0.0), (0.1, 0.2, 0.3), (1.0, 0.0, 0.0)))
+    assert FollowTrajectory().step(cue) is cue
+    still = HoldTrajectory(motion((0.6, 0.8, 0.0, 0.0), (1.0, 0.0, 0.0), (0.1, 0.2, 0.3), (1.0, 0.0, 0.0)))
     assert still.step(cue) == Cue(1.0, (0.6, 0.8, 0.0, 0.0), ZERO, (0.1, 0.2, 0.3), ZERO, ZERO)
     assert still.arrived
-    assert Follow().arrived
+    assert FollowTrajectory().arrived
 
 
 @FEW
 @given(quaternions, rates, places, rates)
 def test_a_halt_fades_every_rate_out(q: Quat, w: Vec3, p: Vec3, v: Vec3) -> None:
-    halt = Halt(motion(q, w, p, v), DT, (5.0, 5.0, 5.0))
+    halt = StopTrajectory(motion(q, w, p, v), DT, (5.0, 5.0, 5.0))
     cues = drive(halt, HALT_TIME + 2 * DT)
     check_derivatives(cues)
     assert halt.arrived
@@ -139,7 +139,7 @@ def test_a_halt_fades_every_rate_out(q: Quat, w: Vec3, p: Vec3, v: Vec3) -> None
 
 
 def test_a_halt_has_not_arrived_before_its_time() -> None:
-    halt = Halt(motion(w=(1.0, 0.0, 0.0)), DT, TRAVEL)
+    halt = StopTrajectory(motion(w=(1.0, 0.0, 0.0)), DT, TRAVEL)
     drive(halt, HALT_TIME - 2 * DT)
     assert not halt.arrived
 
@@ -148,13 +148,13 @@ def test_a_halt_has_not_arrived_before_its_time() -> None:
 @given(places, rates)
 def test_a_halt_stays_inside_the_travel(p: Vec3, v: Vec3) -> None:
     """But for its first millisecond, at the very end of the travel."""
-    for cue in drive(Halt(motion(p=p, v=v), DT, TRAVEL), HALT_TIME, dt=0.01):
+    for cue in drive(StopTrajectory(motion(p=p, v=v), DT, TRAVEL), HALT_TIME, dt=0.01):
         assert all(abs(x) <= limit + 1.5e-3 for x, limit in zip(cue.p_WS_W, TRAVEL, strict=True))
 
 
 @pytest.mark.parametrize("place", [0.999, 1.0, 1.0 + 1e-12])
 def test_a_halt_at_the_rail(place: float) -> None:
-    cues = drive(Halt(motion(p=(place, 0.0, 0.0), v=(1.0, 0.0, 0.0)), DT, TRAVEL), HALT_TIME + DT)
+    cues = drive(StopTrajectory(motion(p=(place, 0.0, 0.0), v=(1.0, 0.0, 0.0)), DT, TRAVEL), HALT_TIME + DT)
     assert np.all(np.isfinite(columns(cues)[4]))
     assert abs(cues[-1].p_WS_W[0] - 1.0) < 1e-3
     assert cues[-1].v_WS_W == ZERO
@@ -163,7 +163,7 @@ def test_a_halt_at_the_rail(place: float) -> None:
 @FEW
 @given(quaternions, places)
 def test_home_by_the_shorter_way(q: Quat, p: Vec3) -> None:
-    home = Home(motion(q, p=p), DT)
+    home = ParkTrajectory(motion(q, p=p), DT)
     cues = drive(home, home.duration + 2 * DT)
     check_derivatives(cues)
     assert home.arrived
@@ -177,7 +177,7 @@ def test_home_by_the_shorter_way(q: Quat, p: Vec3) -> None:
 
 
 def test_home_takes_a_second_from_nowhere() -> None:
-    home = Home(UPRIGHT, DT)
+    home = ParkTrajectory(UPRIGHT, DT)
     assert home.duration == 1.0
     drive(home, 0.99)
     assert not home.arrived
@@ -188,7 +188,7 @@ def test_home_takes_a_second_from_nowhere() -> None:
 def test_a_blend_is_smooth_from_rest_to_a_spinning_cue(q: Quat, p: Vec3, q_cue: Quat, w: Vec3, duration: float) -> None:
     """Also where the turn still left grows beyond half a turn on the way."""
     cue = spinning(w, q_cue)
-    blend = Blend(motion(q, p=p), cue(0.0), DT, duration)
+    blend = EngageTrajectory(motion(q, p=p), cue(0.0), DT, duration)
     cues = drive(blend, duration + 5 * DT, cue)
     assert blend.arrived
     last = round(duration / DT) - 1
@@ -205,12 +205,12 @@ def test_a_blend_is_smooth_from_rest_to_a_spinning_cue(q: Quat, p: Vec3, q_cue: 
 def test_a_blend_over_half_a_turn_that_grows(axis: Vec3) -> None:
     """The cue runs away from the platform: what was half a turn becomes more, and the way must not change over."""
     cue = spinning(scale(1.2, axis), exp(scale(pi - 0.1, axis)))
-    check_derivatives(drive(Blend(UPRIGHT, cue(0.0), DT, 4.0), 3.999, cue), size=5.0)
+    check_derivatives(drive(EngageTrajectory(UPRIGHT, cue(0.0), DT, 4.0), 3.999, cue), size=5.0)
 
 
 def test_a_blend_to_a_cue_that_rests_is_the_straight_way() -> None:
     cue = Cue(0.0, exp((0.0, 0.0, 1.0)), ZERO, (0.5, 0.0, 0.0), ZERO, ZERO)
-    for k, at in enumerate(drive(Blend(UPRIGHT, cue, DT, 2.0), 1.999, lambda _: cue), 1):
+    for k, at in enumerate(drive(EngageTrajectory(UPRIGHT, cue, DT, 2.0), 1.999, lambda _: cue), 1):
         s = smoothstep(k * DT / 2.0)[0]
         assert geodesic(at.q_WS, exp((0.0, 0.0, s))) < 1e-9
         assert at.p_WS_W == pytest.approx((0.5 * s, 0.0, 0.0), abs=1e-12)

@@ -6,7 +6,7 @@ from math import radians
 
 import pytest
 
-from atlas_cueing.live.input.discontinuity import JUMP_FORCE, departure
+from atlas_cueing.live.input.discontinuity import JUMP_FORCE, discontinuity
 from atlas_cueing.rotation import exp, multiply
 from atlas_cueing.signals import VehicleState
 
@@ -20,40 +20,40 @@ def test_a_lively_flight_follows(rate_hz: int) -> None:
     motion = Motion(4.0)
     samples = [motion.at(k / rate_hz) for k in range(4 * rate_hz)]
     for before, now in pairwise(samples):
-        assert departure(before, now) == ""
+        assert discontinuity(before, now) == ""
 
 
 def test_an_attitude_that_the_rates_do_not_explain() -> None:
     now = replace(REST, time=1.0 / 120.0, q_NB=exp((0.0, radians(1.0), 0.0)))
-    assert departure(REST, now).startswith("attitude jumped by 1 deg that the body rates do not explain")
-    assert departure(REST, replace(now, q_NB=exp((0.0, radians(0.5), 0.0)))) == ""
+    assert discontinuity(REST, now).startswith("attitude jumped by 1 deg that the body rates do not explain")
+    assert discontinuity(REST, replace(now, q_NB=exp((0.0, radians(0.5), 0.0)))) == ""
     turning = [replace(state, w_NB_B=(0.0, radians(120.0), 0.0)) for state in (REST, now)]
-    assert departure(*turning) == ""
+    assert discontinuity(*turning) == ""
 
 
 def test_a_reversed_turn_is_a_jump_and_a_sign_is_none() -> None:
     turning = replace(REST, w_NB_B=(2.0, 0.0, 0.0))
     forward, backward = (replace(turning, time=0.02, q_NB=exp((k * 0.04, 0.0, 0.0))) for k in (1, -1))
-    assert departure(turning, forward) == ""
-    assert departure(turning, replace(forward, q_NB=tuple(-c for c in forward.q_NB))) == ""
-    assert departure(turning, backward) != ""
+    assert discontinuity(turning, forward) == ""
+    assert discontinuity(turning, replace(forward, q_NB=tuple(-c for c in forward.q_NB))) == ""
+    assert discontinuity(turning, backward) != ""
 
 
 def test_jitter_of_the_time_is_granted_in_proportion_to_the_rate() -> None:
     turning = replace(REST, w_NB_B=(3.0, 0.0, 0.0))
     late = replace(turning, time=0.001, q_NB=exp((0.03, 0.0, 0.0)))  # 10 ms of turn in 1 ms
-    assert departure(turning, late) != ""
-    assert departure(turning, late, jitter=0.01) == ""
-    assert departure(REST, replace(late, w_NB_B=(0.0, 0.0, 0.0)), jitter=0.01) != ""
+    assert discontinuity(turning, late) != ""
+    assert discontinuity(turning, late, jitter=0.01) == ""
+    assert discontinuity(REST, replace(late, w_NB_B=(0.0, 0.0, 0.0)), jitter=0.01) != ""
 
 
 def test_a_long_gap_does_not_explain_everything() -> None:
     now = replace(REST, time=5.0, q_NB=multiply(REST.q_NB, exp((0.0, 0.0, radians(20.0)))))
-    assert departure(REST, now) != ""
+    assert discontinuity(REST, now) != ""
 
 
 def test_force() -> None:
     bump = replace(REST, time=0.01, f_B=(0.0, 0.0, -9.80665 - 0.99 * JUMP_FORCE))
-    assert departure(REST, bump) == ""
+    assert discontinuity(REST, bump) == ""
     crash = replace(bump, f_B=(0.0, JUMP_FORCE, 5.0))
-    assert departure(REST, crash).startswith("force jumped by")
+    assert discontinuity(REST, crash).startswith("force jumped by")

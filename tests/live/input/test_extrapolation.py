@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from atlas_cueing.live.input.arrival_times import Arrivals
+from atlas_cueing.live.input.arrival_times import ArrivalTimes
 from atlas_cueing.live.input.extrapolation import (
     FADING,
     STEEPEST_FORCE,
@@ -43,7 +43,7 @@ def read(
 ) -> tuple[list[VehicleState], list[VehicleState]]:
     """What the loop reads, and the truth, from the first half second on."""
     taken, arrivals = arrive(rate_hz, jitter)
-    clock = Arrivals(rate_hz)
+    clock = ArrivalTimes(rate_hz)
     course, last, n = None, None, 0
     got, truth = [], []
     for k in range(1, int(DURATION * loop_hz)):

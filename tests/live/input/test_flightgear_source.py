@@ -8,7 +8,7 @@ import pytest
 from vehicles.packets import packet
 
 from atlas_cueing.live.input.flightgear_source import LONGEST_GAP
-from atlas_cueing.live.input.source import Intake
+from atlas_cueing.live.input.source import SourceReading
 from atlas_cueing.rotation import geodesic
 from atlas_cueing.signals import VehicleState
 
@@ -19,7 +19,7 @@ from ..motions import angles, forces, rates, rms
 def test_nothing_before_the_first_packet() -> None:
     ride = Ride()
     for intake in ride.until(0.5):
-        assert intake == Intake(None, inf, 0, 0, False, False, "")
+        assert intake == SourceReading(None, inf, 0, 0, False, False, "")
 
 
 @pytest.mark.parametrize("rate_hz", [30.0, 60.0, 120.0])

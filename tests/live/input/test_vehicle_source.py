@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from atlas_cueing.errors import VehicleError
-from atlas_cueing.live.input.source import Intake, Source
+from atlas_cueing.live.input.source import Source, SourceReading
 from atlas_cueing.live.input.vehicle_source import MAX_STEPS, VehicleSource
 from atlas_cueing.rotation import exp, geodesic, multiply
 from atlas_cueing.signals import VehicleState
@@ -48,11 +48,11 @@ class Counted:
         return True
 
 
-def reads(source: Source, times: list[float], advance: Callable[[float], bool] = lambda _: True) -> list[Intake]:
+def reads(source: Source, times: list[float], advance: Callable[[float], bool] = lambda _: True) -> list[SourceReading]:
     return [source.read(t, advance(t)) for t in times]
 
 
-def vehicles(intakes: list[Intake]) -> list[VehicleState]:
+def vehicles(intakes: list[SourceReading]) -> list[VehicleState]:
     found = [intake.vehicle for intake in intakes if intake.vehicle is not None]
     assert len(found) == len(intakes)
     return found

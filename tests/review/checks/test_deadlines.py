@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from atlas_cueing.recording import Table
+from atlas_cueing.recording import TopicColumns
 from atlas_cueing.review import RecordedRun
-from atlas_cueing.review.checks.deadlines import check_punctuality, is_live, punctuality_notes
+from atlas_cueing.review.checks.deadlines import check_deadlines, is_live, punctuality_notes
 from atlas_cueing.signals import TIMING
 
 from ..runs import coning
@@ -30,31 +30,31 @@ def live(**columns: np.ndarray) -> RecordedRun:
         "state": np.full(count, 2.0),
     } | columns
     values = np.column_stack([table[name] for name in TIMING.fields])
-    return replace(run, log=replace(run.log, tables={**run.log.tables, TIMING.name: Table(TIMING.fields, values)}))
+    return replace(run, log=replace(run.log, tables={**run.log.tables, TIMING.name: TopicColumns(TIMING.fields, values)}))
 
 
 def test_a_run_without_timing_is_not_live() -> None:
     assert not is_live(coning())
-    assert check_punctuality(coning()) == []
+    assert check_deadlines(coning()) == []
     assert punctuality_notes(coning()) == []
 
 
 def test_an_honest_account() -> None:
     assert is_live(live())
-    assert check_punctuality(live()) == []
+    assert check_deadlines(live()) == []
 
 
 @pytest.mark.parametrize("count", [0, 2, 4])
 def test_a_wrong_number_of_missed_deadlines(count: int) -> None:
     at = np.arange(601)
-    (found,) = check_punctuality(live(missed_deadlines=count * (at >= MISSED_AT).astype(float)))
+    (found,) = check_deadlines(live(missed_deadlines=count * (at >= MISSED_AT).astype(float)))
     assert found.check == "real time does not fit the missed deadlines"
     assert found.time == pytest.approx(0.01 * (MISSED_AT + 1))
 
 
 def test_a_clock_that_slips_by_ten_microseconds() -> None:
     at = np.arange(601)
-    (found,) = check_punctuality(live(elapsed_s=0.01 * (at + MISSED * (at > MISSED_AT)) + 1e-5 * (at > 400)))
+    (found,) = check_deadlines(live(elapsed_s=0.01 * (at + MISSED * (at > MISSED_AT)) + 1e-5 * (at > 400)))
     assert found.time == pytest.approx(4.01)
     assert "difference = 1" in found.text
 
@@ -62,7 +62,7 @@ def test_a_clock_that_slips_by_ten_microseconds() -> None:
 def test_a_tick_before_its_deadline() -> None:
     late = np.full(601, 1e-5)
     late[77] = -1e-5
-    (found,) = check_punctuality(live(lateness_s=late))
+    (found,) = check_deadlines(live(lateness_s=late))
     assert (found.check, found.time) == ("a tick began early", pytest.approx(0.77))
 
 

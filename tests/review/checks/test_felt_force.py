@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from atlas_cueing.review.checks.felt_force import check_sensation, felt_again
+from atlas_cueing.review.checks.felt_force import check_felt_force, felt_again
 from atlas_cueing.signals import felt
 
 from ..runs import G, coning, with_flight
@@ -17,7 +17,7 @@ def test_a_coning_cabin() -> None:
     assert force == pytest.approx(run.flight.felt_f, abs=1e-12)
     assert rate == pytest.approx(run.flight.felt_w, abs=1e-12)
     assert force[0] == pytest.approx([0.0, 0.0, -G])
-    assert check_sensation(run) == []
+    assert check_felt_force(run) == []
 
 
 def test_a_head_off_the_centre_agrees_with_what_the_recorder_writes() -> None:
@@ -28,7 +28,7 @@ def test_a_head_off_the_centre_agrees_with_what_the_recorder_writes() -> None:
     force, rate = felt(f.motion_q_WS, f.motion_w_W, f.motion_alpha_W, f.motion_a_W, (0.1, -0.2, 0.4))
     assert felt_again(off)[0] == pytest.approx(force, abs=1e-12)
     assert felt_again(off)[1] == pytest.approx(rate, abs=1e-12)
-    assert {finding.place for finding in check_sensation(off)} >= {"/felt fx_m_s2", "/felt fy_m_s2", "/felt fz_m_s2"}
+    assert {finding.place for finding in check_felt_force(off)} >= {"/felt fx_m_s2", "/felt fy_m_s2", "/felt fz_m_s2"}
 
 
 @pytest.mark.parametrize("angle", [1e-9, 1e-4, 1.0, 3.0, np.pi])
@@ -46,7 +46,7 @@ def test_the_angle_is_judged_near_zero_and_near_half_a_turn(angle: float) -> Non
     values = table.values.copy()
     values[:, -1] = expected
     run = replace(run, log=replace(run.log, tables={**run.log.tables, "/felt": replace(table, values=values)}))
-    assert check_sensation(run) == []
+    assert check_felt_force(run) == []
     values[100, -1] += 1e-6
-    (found,) = check_sensation(run)
+    (found,) = check_felt_force(run)
     assert (found.place, found.time) == ("/felt direction_error_rad", pytest.approx(1.0))

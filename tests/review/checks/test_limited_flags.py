@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from atlas_cueing.review.checks.limited_flags import ANGLE, DISTANCE, check_honesty
+from atlas_cueing.review.checks.limited_flags import ANGLE, DISTANCE, check_limited_flags
 from atlas_cueing.review.own_rotations import from_vector, product
 
 from ..runs import coning, with_flight
@@ -23,11 +23,11 @@ def lagging(angle: float, distance: float, limited: tuple[float, float], axis: i
         cue_p_W=run.flight.cue_p_W + distance * ahead,
         limited=np.where(rows[:, None], np.array(limited), 0.0),
     )
-    return [(finding.place, finding.time) for finding in check_honesty(with_flight(run, flight))]
+    return [(finding.place, finding.time) for finding in check_limited_flags(with_flight(run, flight))]
 
 
 def test_a_run_that_keeps_up() -> None:
-    assert check_honesty(coning()) == []
+    assert check_limited_flags(coning()) == []
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from recording.flights import HEAD, tumble
 
-from atlas_cueing.recording import McapRecorder, Table
+from atlas_cueing.recording import McapRecorder, TopicColumns
 from atlas_cueing.review import RecordedRun
-from atlas_cueing.review.checks.log_times import check_stamps
+from atlas_cueing.review.checks.log_times import check_log_times
 from atlas_cueing.review.recorded_run import open_run
 from atlas_cueing.scenario import load_platform
 from atlas_cueing.signals import Timing
@@ -50,7 +50,7 @@ def _platform() -> dict[str, bytes]:
 
 
 def test_a_log_as_recorded(run: RecordedRun) -> None:
-    assert check_stamps(run) == []
+    assert check_log_times(run) == []
     assert run.log.transforms is not None
     assert len(run.log.transforms.values) > 60
 
@@ -60,7 +60,7 @@ def test_a_log_time_that_is_off_by_two_nanoseconds(run: RecordedRun, topic: str)
     table = run.log.tables[topic]
     times = table.log_times.copy()
     times[7] += np.uint64(2)
-    found = check_stamps(with_tables(run, **{topic: replace(table, log_times=times)}))
+    found = check_log_times(with_tables(run, **{topic: replace(table, log_times=times)}))
     # the motion's are what /tf is found by
     assert [f.place for f in found][:1] == [f"{topic} log_time"]
     assert "difference = 2 ns" in found[0].text
@@ -71,7 +71,7 @@ def test_log_times_of_another_epoch(run: RecordedRun) -> None:
     """All of them an hour later: wrong for simulated time, and another start of a live run."""
     shifted = {t: replace(x, log_times=x.log_times + np.uint64(3600 * 10**9)) for t, x in run.log.tables.items()}
     found = {
-        finding.place for finding in check_stamps(with_tables(replace(run, log=replace(run.log, transforms=None)), **shifted))
+        finding.place for finding in check_log_times(with_tables(replace(run, log=replace(run.log, transforms=None)), **shifted))
     }
     live = "/timing" in run.log.tables
     assert found == (set() if live else {f"{topic} log_time" for topic in run.log.tables})
@@ -83,7 +83,7 @@ def test_a_transform_that_is_not_the_motion(run: RecordedRun) -> None:
     values = poses.values.copy()
     values[5, 0] += 1e-12
     values[6, 4] = np.nextafter(values[6, 4], 2.0)
-    found = check_stamps(with_transforms(run, replace(poses, values=values)))
+    found = check_log_times(with_transforms(run, replace(poses, values=values)))
     assert [(f.check, f.place) for f in found] == [("differs from /motion", "/tf px_m"), ("differs from /motion", "/tf q_ws_x")]
 
 
@@ -92,7 +92,7 @@ def test_a_transform_of_no_tick(run: RecordedRun) -> None:
     assert poses is not None
     times = poses.log_times.copy()
     times[9] += np.uint64(1)
-    found = check_stamps(with_transforms(run, replace(poses, log_times=times)))
+    found = check_log_times(with_transforms(run, replace(poses, log_times=times)))
     assert [f.check for f in found] == ["no tick has this log time"]
 
 
@@ -100,17 +100,17 @@ def test_a_transform_of_no_tick(run: RecordedRun) -> None:
 def test_transforms_that_are_missing(run: RecordedRun, cut: slice) -> None:
     poses = run.log.transforms
     assert poses is not None
-    found = check_stamps(with_transforms(run, Table(poses.fields, poses.values[cut], poses.log_times[cut])))
+    found = check_log_times(with_transforms(run, TopicColumns(poses.fields, poses.values[cut], poses.log_times[cut])))
     assert [f.check for f in found] == ["no /tf for too long"]
 
 
 def test_a_log_without_transforms_is_no_fault(run: RecordedRun) -> None:
-    assert check_stamps(replace(run, log=replace(run.log, transforms=None))) == []
+    assert check_log_times(replace(run, log=replace(run.log, transforms=None))) == []
 
 
-def with_tables(run: RecordedRun, **tables: Table) -> RecordedRun:
+def with_tables(run: RecordedRun, **tables: TopicColumns) -> RecordedRun:
     return replace(run, log=replace(run.log, tables={**run.log.tables, **tables}))
 
 
-def with_transforms(run: RecordedRun, transforms: Table) -> RecordedRun:
+def with_transforms(run: RecordedRun, transforms: TopicColumns) -> RecordedRun:
     return replace(run, log=replace(run.log, transforms=transforms))

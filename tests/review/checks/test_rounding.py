@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from atlas_cueing.review import recue, review
+from atlas_cueing.review import cue_again, review_log
 from atlas_cueing.review.checks.rounding import COARSEST, rounding
 
 from ..corrupting import Columns, corrupted
@@ -34,7 +34,7 @@ def times(rounded: Rounded, topic: str) -> Callable[[Columns], None]:
 @pytest.mark.parametrize("topic", ["", "/cue", "/motion"], ids=["all", "cue", "motion"])
 @pytest.mark.parametrize("name", ROUNDINGS)
 def test_rounded_times_are_clean(flight: Path, tmp_path: Path, name: str, topic: str) -> None:
-    found = review(corrupted(flight, tmp_path / "x.mcap", times(ROUNDINGS[name], topic)))
+    found = review_log(corrupted(flight, tmp_path / "x.mcap", times(ROUNDINGS[name], topic)))
     assert found.findings == ()
 
 
@@ -42,8 +42,8 @@ def test_rounded_times_are_clean(flight: Path, tmp_path: Path, name: str, topic:
 def test_a_flight_with_rounded_times_is_cued_anew(flight: Path, tmp_path: Path, name: str) -> None:
     """Its step is that of the whole flight: the first one, a hundredth of a us off, would lead away from it."""
     corrupted(flight, tmp_path / "x.mcap", times(ROUNDINGS[name], ""))
-    recue(tmp_path / "x.mcap", [], tmp_path / "again.mcap")
-    assert review(tmp_path / "again.mcap").findings == ()
+    cue_again(tmp_path / "x.mcap", [], tmp_path / "again.mcap")
+    assert review_log(tmp_path / "again.mcap").findings == ()
 
 
 @pytest.mark.parametrize(
@@ -56,7 +56,7 @@ def test_a_flight_with_rounded_times_is_cued_anew(flight: Path, tmp_path: Path, 
     ids=["ms", "late", "one tick"],
 )
 def test_what_is_no_rounding_is_found(flight: Path, tmp_path: Path, rounded: Rounded, check: str) -> None:
-    found = review(corrupted(flight, tmp_path / "x.mcap", times(rounded, "/cue")))
+    found = review_log(corrupted(flight, tmp_path / "x.mcap", times(rounded, "/cue")))
     assert (check, "/cue time_s") in {(finding.check, finding.place) for finding in found.findings}
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from atlas_cueing.review import RecordedRun
-from atlas_cueing.review.checks.status import JUMP, check_course, notes
+from atlas_cueing.review.checks.status import JUMP, check_status, notes
 from atlas_cueing.review.own_rotations import from_vector, product
 
 from ..runs import coning, with_flight, with_states
@@ -21,13 +21,13 @@ def jumped(angle: float) -> RecordedRun:
 
 
 def test_a_calm_run() -> None:
-    assert check_course(coning()) == []
+    assert check_status(coning()) == []
     assert notes(coning()) == []
 
 
 @pytest.mark.parametrize(("angle", "count"), [(0.9 * JUMP, 0), (1.1 * JUMP, 1), (3.0, 1)])
 def test_a_jump_is_seen_from_its_bound_on(angle: float, count: int) -> None:
-    found = check_course(jumped(angle))
+    found = check_status(jumped(angle))
     assert len(found) == count
     assert all(finding.time == pytest.approx(3.0) for finding in found)
 
@@ -44,13 +44,13 @@ def test_a_jump_is_seen_from_its_bound_on(angle: float, count: int) -> None:
     ],
 )
 def test_a_jump_that_is_told_of_is_none(states: tuple[tuple[float, str, str], ...], count: int) -> None:
-    assert len(check_course(with_states(jumped(0.1), *states))) == count
+    assert len(check_status(with_states(jumped(0.1), *states))) == count
 
 
 @pytest.mark.parametrize("state", ["vehicle_failed", "FAULT_STOPPING", "interrupted", "STOPPED", "failed"])
 def test_states_of_failure(state: str) -> None:
     run = with_states(coning(), (0.0, "running", ""), (2.0, state, "why"))
-    (found,) = check_course(run)
+    (found,) = check_status(run)
     assert str(found) == f"2.000000 s /status: fault: {state}: why"
     assert notes(run) == []
 
@@ -58,7 +58,7 @@ def test_states_of_failure(state: str) -> None:
 def test_the_result_is_told_once() -> None:
     run = with_states(coning(), (2.0, "vehicle_failed", "why"))
     failed = replace(run, log=replace(run.log, metadata={"result": "vehicle_failed", "reason": "why"}))
-    assert [str(finding) for finding in check_course(failed)] == [
+    assert [str(finding) for finding in check_status(failed)] == [
         "atlas.run: result: result = 'vehicle_failed', allowed: 'ok'; why"
     ]
 
@@ -68,4 +68,4 @@ def test_other_states_are_notes() -> None:
         coning(), (0.0, "running", ""), (1.0, "HOLDING", "input stale"), (2.0, "running", ""), (5.0, "PARKING", "")
     )
     assert notes(run) == ["1.000000 to 2.000000 s HOLDING: input stale", "5.000000 s PARKING"]
-    assert check_course(run) == []
+    assert check_status(run) == []

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from atlas_cueing.review import judge, review
+from atlas_cueing.review import judge, review_log
 from atlas_cueing.review.plots.downsample import POINTS
 from atlas_cueing.review.plots.limit_bars import limit_bars
 from atlas_cueing.review.plots.space import in_space
@@ -105,7 +105,7 @@ def test_spectra_resolve_the_same_at_any_rate(dt: float) -> None:
 
 
 def test_overlays_have_a_line_a_run_and_row(flight: Path) -> None:
-    found = review(flight)
+    found = review_log(flight)
     plot = overlays(["one", "two"], [found.run, found.run])
     assert [trace.name for trace in plot.data] == ["one"] * 4 + ["two"] * 4
     assert len({trace.line.color for trace in plot.data}) == 2
