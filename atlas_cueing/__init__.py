@@ -1,4 +1,7 @@
-"""Washout-free motion cueing for platforms of unbounded rotation: JSBSim in, wheel velocity profiles out."""
+"""Washout-free motion cueing for platforms of unbounded rotation.
+
+JSBSim in, wheel velocity profiles out.
+"""
 
 
 def __getattr__(name: str) -> str:

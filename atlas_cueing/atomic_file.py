@@ -17,7 +17,10 @@ class Destination:
     """Where a file goes when it is complete: its real name, and what has that name until then."""
 
     def __init__(self, file: Path) -> None:
-        """Look where `file` leads. Raises OSError when something else than a regular file is there."""
+        """Look where `file` leads.
+
+        Raises OSError when something else than a regular file is there.
+        """
         self.path = real_file(file)
         self._before = _identity(self.path)
 

@@ -14,7 +14,8 @@
     |-- PacketError             a simulator's packet is not one, or cannot be believed; it is dropped (in `vehicles.flightgear`)
     `-- SetPointError           a set-point packet is damaged, forged or not one of ours; it is not followed
 
-Messages carry evidence: what, which value, which bounds (written `lower <= value <= upper`), when and where.
+Messages carry evidence: what, which value, which bounds (written `lower <= value <= upper`), when
+    and where.
 """
 
 import sys
@@ -66,10 +67,15 @@ class ScenarioError(InputError):
 
 
 class MissingExtraError(InputError):
-    """A package that comes with an extra is not installed; the text has the command that installs it where this one runs."""
+    """A package that comes with an extra is not installed.
+
+    The text has the command that installs it where this one runs.
+    """
 
     def __init__(self, what: str, package: str, extra: str) -> None:
-        super().__init__(f"{what} needs {package}; install it with: {PIP} install 'atlas_cueing[{extra}]'")
+        super().__init__(
+            f"{what} needs {package}; install it with: {PIP} install 'atlas_cueing[{extra}]'"
+        )
 
 
 class StartError(InputError):
@@ -79,13 +85,16 @@ class StartError(InputError):
 class SlipConditionError(InputError):
     """The induced rows are not independent, so the kinematic slip condition fails (paper, section 3.1)."""
 
-    def __init__(self, name: str, determinant: float, condition_number: float, bound: float) -> None:
+    def __init__(
+        self, name: str, determinant: float, condition_number: float, bound: float
+    ) -> None:
         self.determinant = determinant
         self.condition_number = condition_number
         super().__init__(
-            f"platform {name!r} violates the kinematic slip condition: its three induced rows are not independent "
-            f"(determinant {determinant:.3g}, condition number {_number(condition_number)}, allowed: at most {bound:.0e}); "
-            "move a contact point or turn a drive direction"
+            f"platform {name!r} violates the kinematic slip condition: its three induced rows are"
+            f" not independent (determinant {determinant:.3g}, condition number"
+            f" {_number(condition_number)}, allowed: at most {bound:.0e}); move a contact point or"
+            " turn a drive direction"
         )
 
 

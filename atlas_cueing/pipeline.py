@@ -12,14 +12,20 @@ from .smoothing import Smoothing
 
 @dataclass(frozen=True, slots=True)
 class Pipeline:
-    """One flight's chain from vehicle to wheels; cueing and smoothing hold the state, so use a new one for each flight."""
+    """One flight's chain from vehicle to wheels.
+
+    Cueing and smoothing hold the state, so use a new one for each flight.
+    """
 
     cueing: CueSource
     smoothing: Smoothing
     wheels: WheelDrive
 
     def step(self, vehicle: VehicleState) -> Tick:
-        """What the platform asks, is allowed and does for one vehicle state; states come in order, one step apart."""
+        """What the platform asks, is allowed and does for one vehicle state.
+
+        States come in order, one step apart.
+        """
         cue = self.cueing.step(vehicle)
         motion = self.smoothing.step(cue)
         return Tick(vehicle, cue, motion, self.wheels.speeds(motion))
@@ -27,8 +33,12 @@ class Pipeline:
     def block(self, vehicles: Sequence[VehicleState]) -> list[Tick]:
         """The ticks that `step` would give for these states, one after the other.
 
-        Stage by stage: nothing flows back, and each stage's code stays in the processor's caches, which saves a third.
+        Stage by stage: nothing flows back, and each stage's code stays in the processor's caches,
+            which saves a third.
         """
         cues = [self.cueing.step(vehicle) for vehicle in vehicles]
         motions = [self.smoothing.step(cue) for cue in cues]
-        return [Tick(v, c, m, self.wheels.speeds(m)) for v, c, m in zip(vehicles, cues, motions, strict=True)]
+        return [
+            Tick(v, c, m, self.wheels.speeds(m))
+            for v, c, m in zip(vehicles, cues, motions, strict=True)
+        ]

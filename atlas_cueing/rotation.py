@@ -2,14 +2,17 @@
 
 Conventions, once for the whole project:
 
-- Quaternions are Hamilton's, scalar first `(w, x, y, z)`, of unit norm; `q_AB` turns B-vectors into A-vectors
-  (active, right-handed): `v_A = rotate(q_AB, v_B)` and `multiply(q_AB, q_BC) = q_AC`.
+- Quaternions are Hamilton's, scalar first `(w, x, y, z)`, of unit norm; `q_AB` turns B-vectors into
+  A-vectors (active, right-handed): `v_A = rotate(q_AB, v_B)` and `multiply(q_AB, q_BC) = q_AC`.
 - q and -q are one orientation; `continuous` picks the sign nearest to the previous sample.
-- Rotation vectors are axis times angle in rad; `exp` and `log` go there and back, `log` by the shorter way (angle <= pi).
-- N is north-east-down, B forward-right-down (FRD), W and S are forward-left-up (FLU) when upright; `flip` changes a vector
-  between FRD and FLU and `flip_rotation` a quaternion between (N, B) and (W, S).
+- Rotation vectors are axis times angle in rad; `exp` and `log` go there and back, `log` by the
+    shorter way (angle <= pi).
+- N is north-east-down, B forward-right-down (FRD), W and S are forward-left-up (FLU) when upright;
+  `flip` changes a vector between FRD and FLU and `flip_rotation` a quaternion between (N, B) and
+  (W, S).
 
-Plain floats are 10 to 50 times faster here than arrays of three; scipy's Rotation is the oracle in the tests.
+Plain floats are 10 to 50 times faster here than arrays of three; scipy's Rotation is the oracle in
+the tests.
 """
 
 # mypyc: runs every tick
@@ -24,7 +27,8 @@ Mat3: TypeAlias = tuple[Vec3, Vec3, Vec3]
 ZERO: Vec3 = (0.0, 0.0, 0.0)
 IDENTITY: Quat = (1.0, 0.0, 0.0, 0.0)
 
-_SMALL_ANGLE: Final = 1e-4  # rad; below it the series are exact to double precision (next term: angle^4 / 1920 < 1e-19)
+# rad; below it the series are exact to double precision (next term: angle^4 / 1920 < 1e-19)
+_SMALL_ANGLE: Final = 1e-4
 
 
 def add(a: Vec3, b: Vec3) -> Vec3:
@@ -113,7 +117,11 @@ def rotate(q: Quat, v: Vec3) -> Vec3:
     a, b, c = v
     # v + 2 w (u x v) + 2 u x (u x v), with u = (x, y, z)
     tx, ty, tz = 2.0 * (y * c - z * b), 2.0 * (z * a - x * c), 2.0 * (x * b - y * a)
-    return (a + w * tx + y * tz - z * ty, b + w * ty + z * tx - x * tz, c + w * tz + x * ty - y * tx)
+    return (
+        a + w * tx + y * tz - z * ty,
+        b + w * ty + z * tx - x * tz,
+        c + w * tz + x * ty - y * tx,
+    )
 
 
 def up_in_body(q_AB: Quat) -> Vec3:
@@ -138,7 +146,10 @@ def log(q: Quat) -> Vec3:
 
 
 def log_unwound(q: Quat) -> Vec3:
-    """Rotation vector (rad) of a unit quaternion as its sign tells: by the longer way, |log q| > pi, where w < 0."""
+    """Rotation vector (rad) of a unit quaternion as its sign tells.
+
+    By the longer way, |log q| > pi, where w < 0.
+    """
     w, x, y, z = q
     s = sqrt(x * x + y * y + z * z)
     if s < 0.5 * _SMALL_ANGLE and w > 0.0:
@@ -165,7 +176,10 @@ def integrate_base(q_AB: Quat, turn_A: Vec3, w0_A: Vec3, w1_A: Vec3, dt: float) 
 
 
 def integrate_body(q_AB: Quat, turn_B: Vec3, w0_B: Vec3, w1_B: Vec3, dt: float) -> Quat:
-    """As `integrate_base` for q' = 1/2 q o w_B, with the rate given in the BODY frame B; the commutator changes sign."""
+    """As `integrate_base` for q' = 1/2 q o w_B, with the rate given in the BODY frame B.
+
+    The commutator changes sign.
+    """
     return multiply(q_AB, exp(_magnus(turn_B, w0_B, w1_B, dt * dt / 12.0)))
 
 
@@ -179,7 +193,10 @@ def _magnus(turn: Vec3, a: Vec3, b: Vec3, k: float) -> Vec3:
 
 
 def from_euler(psi: float, theta: float, phi: float) -> Quat:
-    """q_NB from heading, pitch and roll in rad, aerospace order: yaw about z, then pitch about y, then roll about x."""
+    """q_NB from heading, pitch and roll in rad, aerospace order.
+
+    Yaw about z, then pitch about y, then roll about x.
+    """
     cz, sz = cos(0.5 * psi), sin(0.5 * psi)
     cy, sy = cos(0.5 * theta), sin(0.5 * theta)
     cx, sx = cos(0.5 * phi), sin(0.5 * phi)
@@ -192,7 +209,10 @@ def from_euler(psi: float, theta: float, phi: float) -> Quat:
 
 
 def to_euler(q: Quat) -> Vec3:
-    """Heading, pitch and roll (rad) of q_NB, the inverse of `from_euler`; at a pitch of +-90 deg roll is put to 0."""
+    """Heading, pitch and roll (rad) of q_NB, the inverse of `from_euler`.
+
+    At a pitch of +-90 deg roll is put to 0.
+    """
     w, x, y, z = q
     s = 2.0 * (w * y - z * x)
     if abs(s) > 1.0 - 1e-12:
@@ -217,7 +237,10 @@ def geodesic(p: Quat, q: Quat) -> float:
 
 
 def shortest_arc(a: Vec3, b: Vec3) -> Quat:
-    """Smallest rotation that turns the direction of a into the direction of b; about any normal when they are opposite."""
+    """Smallest rotation that turns the direction of a into the direction of b.
+
+    About any normal when they are opposite.
+    """
     axis = cross(a, b)
     s = norm(axis)
     if s > 1e-12 * norm(a) * norm(b):

@@ -1,4 +1,7 @@
-"""Quaternions of many ticks at a time, (n, 4), scalar first, each component contiguous; `rotation` has the same for one."""
+"""Quaternions of many ticks at a time, (n, 4), scalar first, each component contiguous.
+
+`rotation` has the same for one.
+"""
 
 import numpy as np
 

@@ -1,6 +1,9 @@
-"""What a build of the package computes, as hashes: python compiled_probe.py FOLDER, run with the build on the path.
+"""What a build of the package computes, as hashes.
 
-Whole flights (the bytes of their logs), smoothing under hostile cues and the guard under spoilt commands (every number).
+Python compiled_probe.py FOLDER, run with the build on the path.
+
+Whole flights (the bytes of their logs), smoothing under hostile cues and the guard under spoilt
+commands (every number).
 """
 
 import hashlib
@@ -47,9 +50,14 @@ SPOILT = 15_000  # the tick whose command makes the guard stop
 def flown(folder: Path) -> Iterator[tuple[str, str]]:
     for name, duration, vehicle, method in FLIGHTS:
         file, log = folder / f"{name}.toml", folder / f"{name}_{method}.mcap"
-        file.write_text(SCENARIO.format(name=name, duration=duration, vehicle=vehicle, method=method))
+        file.write_text(
+            SCENARIO.format(name=name, duration=duration, vehicle=vehicle, method=method)
+        )
         result = run_scenario(load_scenario(file), log)
-        yield log.name, f"{result.result} {result.ticks} {hashlib.sha256(log.read_bytes()).hexdigest()}"
+        yield (
+            log.name,
+            f"{result.result} {result.ticks} {hashlib.sha256(log.read_bytes()).hexdigest()}",
+        )
 
 
 def cues(randomly: random.Random) -> Iterator[Cue]:
@@ -69,7 +77,10 @@ def cues(randomly: random.Random) -> Iterator[Cue]:
 
 
 def smoothed() -> tuple[str, str]:
-    """Hashes of all motions with their wheels, and of all commands: what the guard let through, and then its stop."""
+    """Hashes of all motions with their wheels, and of all commands.
+
+    What the guard let through, and then its stop.
+    """
     platform, dt = load_platform("atlas-2.9m"), 1.0 / 120.0
     limits = platform.wheel_limit_values(), platform.stage_limit_values()
     wheels, guard = Wheels(platform.geometry()), Guard(dt, *limits)
@@ -89,7 +100,14 @@ def smoothed() -> tuple[str, str]:
             continue
         speeds = wheels.speeds(motion)
         motions.update(repr((motion, speeds)).encode())
-        command = Command(motion.time, speeds.speed, speeds.acceleration, motion.p_WS_W, motion.v_WS_W, motion.a_WS_W)
+        command = Command(
+            motion.time,
+            speeds.speed,
+            speeds.acceleration,
+            motion.p_WS_W,
+            motion.v_WS_W,
+            motion.a_WS_W,
+        )
         if k == SPOILT:
             command = replace(command, v_WS_W=(nan, 0.0, 0.0))
         commands.update(repr((guard.check(command), guard.reason)).encode())
@@ -97,5 +115,9 @@ def smoothed() -> tuple[str, str]:
 
 
 if __name__ == "__main__":
-    found = {"code": Path(rotation.__file__).suffix, **dict(flown(Path(sys.argv[1]))), "smoothing": smoothed()}
+    found = {
+        "code": Path(rotation.__file__).suffix,
+        **dict(flown(Path(sys.argv[1]))),
+        "smoothing": smoothed(),
+    }
     sys.stdout.write(json.dumps(found))

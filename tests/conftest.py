@@ -1,4 +1,6 @@
-"""Property tests judge results, never speed: a busy machine is no failure, and the same code has the same examples.
+"""Property tests judge results, never speed.
+
+A busy machine is no failure, and the same code has the same examples.
 
 Others are searched for with `pytest --hypothesis-profile search`.
 """
@@ -10,7 +12,8 @@ settings.register_profile("search", deadline=None, suppress_health_check=[Health
 settings.register_profile("steady", settings.get_profile("search"), derandomize=True)
 settings.load_profile("steady")
 
-FIRST = "test_compiled.py"  # takes minutes, and the other processes of `-n` have enough to do meanwhile
+# takes minutes, and the other processes of `-n` have enough to do meanwhile
+FIRST = "test_compiled.py"
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

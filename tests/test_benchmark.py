@@ -44,7 +44,9 @@ def measured(section: Any, folder: Path) -> list[Row]:
     return found
 
 
-@pytest.mark.parametrize("section", [whole_run, stages, recorder], ids=lambda module: module.__name__)
+@pytest.mark.parametrize(
+    "section", [whole_run, stages, recorder], ids=lambda module: module.__name__
+)
 def test_a_section_measures_what_it_names(section: Any, tmp_path: Path) -> None:
     """Every row a positive number beside a positive reference, but for differences: so short a flight may hide their sign."""
     for row in measured(section, tmp_path):
@@ -60,7 +62,9 @@ class Processes:
     def __init__(self) -> None:
         self.commands: list[str] = []
 
-    def __call__(self, arguments: Sequence[str | Path], folder: Path, *_command: Sequence[str]) -> Cost:
+    def __call__(
+        self, arguments: Sequence[str | Path], folder: Path, *_command: Sequence[str]
+    ) -> Cost:
         verb, *rest = arguments
         self.commands.append(str(verb))
         if verb in ("run", "batch"):
@@ -82,7 +86,11 @@ class Processes:
     ids=lambda value: getattr(value, "__name__", ""),
 )
 def test_a_section_of_processes(
-    section: Any, commands: list[str], values: list[float], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    section: Any,
+    commands: list[str],
+    values: list[float],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """What it starts, in turns after a warm round, and what it makes of two seconds each."""
     processes = Processes()
@@ -93,13 +101,19 @@ def test_a_section_of_processes(
 
 
 def test_every_bound_that_was_asked_has_its_row() -> None:
-    assert [asked.text("us") for asked in (whole_run.ASKED, stages.ASKED, recorder.ASKED, batches.ASKED)] == [
+    assert [
+        asked.text("us") for asked in (whole_run.ASKED, stages.ASKED, recorder.ASKED, batches.ASKED)
+    ] == [
         "≤ 2x (goal 1.5x)",
         "≤ 40 us",
         "≤ 5 us",
         "≥ 1.8x",
     ]
-    assert [asked.text("s") for asked in (start_up.HELP, start_up.RUN, reviewing.ASKED)] == ["≤ 0.3 s", "≤ 0.8 s", "≤ 3 s"]
+    assert [asked.text("s") for asked in (start_up.HELP, start_up.RUN, reviewing.ASKED)] == [
+        "≤ 0.3 s",
+        "≤ 0.8 s",
+        "≤ 3 s",
+    ]
     assert memory.ASKED.text("MB") == "≤ 300 MB"
     assert FULL.rounds >= 5 <= QUICK.rounds
     assert FULL.log == reviewing.ASKED_FOR
@@ -119,7 +133,12 @@ def test_every_bound_that_was_asked_has_its_row() -> None:
     ],
 )
 def test_verdict(asked: Asked | None, value: float, reference: float | None, verdict: str) -> None:
-    assert Row("run", "it", value, "us", reference="other", reference_value=reference, asked=asked).verdict == verdict
+    assert (
+        Row(
+            "run", "it", value, "us", reference="other", reference_value=reference, asked=asked
+        ).verdict
+        == verdict
+    )
 
 
 def test_rounds_are_interleaved_and_a_warm_one_does_not_count() -> None:
@@ -154,11 +173,24 @@ def test_a_process_of_its_own(tmp_path: Path) -> None:
 
 def test_the_table_and_the_json_say_the_same() -> None:
     found = [
-        Row("run", "a run", 30.0, "us", [29.0, 30.0, 31.0], "bare", 20.0, Asked(2.0, of_ratio=True), "as noted"),
+        Row(
+            "run",
+            "a run",
+            30.0,
+            "us",
+            [29.0, 30.0, 31.0],
+            "bare",
+            20.0,
+            Asked(2.0, of_ratio=True),
+            "as noted",
+        ),
         Row("start", "a start", 1.5, "s", asked=Asked(0.3)),
     ]
     told = json.loads(report.to_json(found, facts(), 0.25, asdict(ONCE)))
-    assert [(row["ratio"], row["verdict"]) for row in told["rows"]] == [(1.5, "met"), (None, "short")]
+    assert [(row["ratio"], row["verdict"]) for row in told["rows"]] == [
+        (1.5, "met"),
+        (None, "short"),
+    ]
     assert told["rows"][0]["samples"] == [29.0, 30.0, 31.0]
     assert (told["code"], told["stolen_share"], told["effort"]["rounds"]) == (build_kind(), 0.25, 1)
     text = StringIO()
@@ -166,7 +198,15 @@ def test_the_table_and_the_json_say_the_same() -> None:
     lines = text.getvalue().splitlines()
     assert lines[0] == f"code: {build_kind()}"
     shown = next(line for line in lines if "a run" in line)
-    assert [cell.strip() for cell in shown.split("│")[1:-1]] == ["a run", "30 us", "bare 20", "1.50", "≤ 2x", "met", "as noted"]
+    assert [cell.strip() for cell in shown.split("│")[1:-1]] == [
+        "a run",
+        "30 us",
+        "bare 20",
+        "1.50",
+        "≤ 2x",
+        "met",
+        "as noted",
+    ]
     assert "25% of the processors taken away" in lines[-1]
 
 
@@ -177,11 +217,19 @@ def test_time_taken_away_is_a_share() -> None:
 
 @pytest.mark.parametrize(
     ("arguments", "message"),
-    [(["--only", "everything"], "invalid choice: 'everything'"), (["--json", "no/such.json"], "there is no folder")],
+    [
+        (["--only", "everything"], "invalid choice: 'everything'"),
+        (["--json", "no/such.json"], "there is no folder"),
+    ],
 )
 def test_wrong_usage(arguments: list[str], message: str, tmp_path: Path) -> None:
     told = subprocess.run(
-        [sys.executable, str(TOOL), *arguments], cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False
+        [sys.executable, str(TOOL), *arguments],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
     )
     assert (told.returncode, told.stdout) == (2, "")
     assert message in told.stderr

@@ -51,10 +51,16 @@ def test_all_lines_of_shell_blocks_and_all_tools_that_are_named() -> None:
         ("tools/test", "tools/setup dev"),
         ("tools/results", "tools/results rudder_kick"),
         ("tools/results_of_another_kind", "tools/results_of_another_kind"),
-        (".venv/bin/atlas-cueing live a.toml", ".venv/bin/atlas-cueing live a.toml --rate 100 --duration 8"),
+        (
+            ".venv/bin/atlas-cueing live a.toml",
+            ".venv/bin/atlas-cueing live a.toml --rate 100 --duration 8",
+        ),
         (
             ".venv/bin/atlas-cueing live scenarios/live/flightgear.toml --duration 30",
-            ".venv/bin/atlas-cueing live scenarios/live/flightgear.toml --duration 30 --rate 100 --duration 10",
+            (
+                ".venv/bin/atlas-cueing live scenarios/live/flightgear.toml --duration 30 --rate"
+                " 100 --duration 10"
+            ),
         ),
     ],
 )
@@ -63,14 +69,23 @@ def test_long_commands_are_shortened_by_their_own_options(command: str, run: str
 
 
 def test_every_shortened_command_is_in_readme() -> None:
-    found = [command for line in tool.lines((ROOT / "README.md").read_text()) for command in (*line.beside, line.command)]
+    found = [
+        command
+        for line in tool.lines((ROOT / "README.md").read_text())
+        for command in (*line.beside, line.command)
+    ]
     for begins in (*tool.SHORTER, *tool.INSTEAD):
         assert any(f"{command} ".startswith(f"{begins} ") for command in found), begins
 
 
 @pytest.mark.parametrize(
     ("line", "well"),
-    [(("true",), True), (("false",), False), (("true", ("exit 3",)), False), (("exit 3", ("true",)), False)],
+    [
+        (("true",), True),
+        (("false",), False),
+        (("true", ("exit 3",)), False),
+        (("exit 3", ("true",)), False),
+    ],
 )
 def test_a_line_ends_well_when_all_of_it_does(
     line: tuple[Any, ...], well: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -79,7 +94,9 @@ def test_a_line_ends_well_when_all_of_it_does(
     assert len(capsys.readouterr().out.splitlines()) >= len(line)
 
 
-def test_a_newcomer_has_nothing_in_the_environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_newcomer_has_nothing_in_the_environment(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("SECRET", "x")
     check = f'[ -z "$SECRET" ] && [ "$HOME" = {tmp_path} ] && [ "$PWD" = {tmp_path} ]'
     assert tool.Newcomer(tmp_path, tmp_path).tries(tool.Line(check))
@@ -87,7 +104,10 @@ def test_a_newcomer_has_nothing_in_the_environment(tmp_path: Path, monkeypatch: 
 
 def test_a_live_command_is_tried_again_with_its_log_gone(tmp_path: Path) -> None:
     (tmp_path / "old.mcap").touch()
-    live = f": {tool.LIVE}; [ ! -e new.mcap ] && touch new.mcap && echo x >> tries && [ $(wc -l < tries) = 3 ]"
+    live = (
+        f": {tool.LIVE}; [ ! -e new.mcap ] && touch new.mcap && echo x >> tries && [ $(wc -l <"
+        " tries) = 3 ]"
+    )
     assert tool.Newcomer(tmp_path, tmp_path).tries(tool.Line(live))
     assert (tmp_path / "old.mcap").exists()
 
@@ -97,7 +117,9 @@ def test_what_takes_too_long_is_ended(tmp_path: Path, monkeypatch: pytest.Monkey
     assert not tool.Newcomer(tmp_path, tmp_path).tries(tool.Line("cat /dev/zero > /dev/null"))
 
 
-def test_what_is_installed_elsewhere_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_installed_elsewhere_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     home = tmp_path / "home"
     (home / ".cache").mkdir(parents=True)
     monkeypatch.setattr(tool, "installed", lambda: {"old", "chromium", "libx", "/usr/local/bin/x"})

@@ -30,7 +30,15 @@ def test_the_command_is_that_of_the_interpreter_that_runs() -> None:
 
 def test_pip_takes_the_command() -> None:
     """An editable install is what is asked for, so that pip looks for nothing else than the extra's packages."""
-    command = [sys.executable, "-m", "pip", "install", "--dry-run", "--no-index", "atlas_cueing[live]"]
+    command = [
+        sys.executable,
+        "-m",
+        "pip",
+        "install",
+        "--dry-run",
+        "--no-index",
+        "atlas_cueing[live]",
+    ]
     told = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
     assert told.returncode == 0, told.stderr
 
@@ -40,10 +48,18 @@ def test_no_message_names_another_pip() -> None:
 
 
 @pytest.mark.parametrize(
-    "call", sorted({call for text in sources() for call in re.findall(r"raise MissingExtraError\((.+)\)", text)})
+    "call",
+    sorted(
+        {
+            call
+            for text in sources()
+            for call in re.findall(r"raise MissingExtraError\((.+)\)", text)
+        }
+    ),
 )
 def test_every_extra_that_is_named_has_the_package(call: str) -> None:
     *_, package, extra = (word.strip(' "') for word in call.split(","))
-    extras = ["live", "report"] if extra == "extra" else [extra]  # by name, where two of them bring it
+    # by name, where two of them bring it
+    extras = ["live", "report"] if extra == "extra" else [extra]
     module = package.removeprefix("dask.")
     assert all(any(wanted.startswith(module) for wanted in EXTRAS[each]) for each in extras)

@@ -1,7 +1,8 @@
 """What a flight may cost, in counts that are the same on every machine.
 
-Calls of Python functions and builtins stand for time: the bounds are twice what the code needed when they were set, so that
-they meet a stage that does its work twice, not one that grows by a line.
+Calls of Python functions and builtins stand for time: the bounds are twice what the code needed
+when they were set, so that they meet a stage that does its work twice, not one that grows by a
+line.
 """
 
 import subprocess
@@ -47,7 +48,9 @@ preset = "atlas-2.9m"
 method = "{method}"
 """
 
-interpreted = pytest.mark.skipif(build_kind() == "compiled", reason="the compiled build: nobody sees its calls")
+interpreted = pytest.mark.skipif(
+    build_kind() == "compiled", reason="the compiled build: nobody sees its calls"
+)
 
 
 def scenario(folder: Path, duration: float, method: str = "blend") -> Scenario:
@@ -88,7 +91,9 @@ def stage_calls(of: Scenario, states: Sequence[VehicleState], log: Path) -> dict
     smoothing, motions = calls(pipeline.smoothing.step, cues)
     wheels, speeds = calls(pipeline.wheels.speeds, motions)
     ticks = [Tick(*parts) for parts in zip(states, cues, motions, speeds, strict=True)]
-    recorder = McapRecorder(log, head_S=of.platform.head_S, metadata={}, attachments={}, chunk_ticks=CHUNK)
+    recorder = McapRecorder(
+        log, head_S=of.platform.head_S, metadata={}, attachments={}, chunk_ticks=CHUNK
+    )
     recording, _ = calls(recorder.append, ticks)
     recorder.abandon()
     return {"cueing": cueing, "smoothing": smoothing, "wheels": wheels, "recording": recording}
@@ -99,8 +104,15 @@ def stage_calls(of: Scenario, states: Sequence[VehicleState], log: Path) -> dict
 def test_calls_of_a_tick(method: str, tmp_path: Path) -> None:
     of = scenario(tmp_path, 4.0, method)
     found = stage_calls(of, flight(of), tmp_path / "log.mcap")
-    bounds = {"cueing": CUEING[method], "smoothing": SMOOTHING, "wheels": WHEELS, "recording": RECORDING}
-    assert {name: count for name, count in found.items() if not 0.0 < count <= ROOM * bounds[name]} == {}
+    bounds = {
+        "cueing": CUEING[method],
+        "smoothing": SMOOTHING,
+        "wheels": WHEELS,
+        "recording": RECORDING,
+    }
+    assert {
+        name: count for name, count in found.items() if not 0.0 < count <= ROOM * bounds[name]
+    } == {}
 
 
 @interpreted
@@ -108,7 +120,9 @@ def test_a_tick_costs_the_same_however_long_the_flight(tmp_path: Path) -> None:
     """Ten times the ticks, ten times the calls: nothing is searched or gone through again."""
     of = scenario(tmp_path, 16.0)
     states = flight(of)
-    short, long = (stage_calls(of, states[:count], tmp_path / "log.mcap") for count in (6 * CHUNK, 60 * CHUNK))
+    short, long = (
+        stage_calls(of, states[:count], tmp_path / "log.mcap") for count in (6 * CHUNK, 60 * CHUNK)
+    )
     assert short == pytest.approx(long, rel=0.05)
 
 
@@ -134,13 +148,21 @@ def test_a_recorder_keeps_a_chunk_and_no_more(tmp_path: Path) -> None:
     of = scenario(tmp_path, 1.0)
     pipeline = build_pipeline(of, 1.0 / RATE_HZ)
     ticks = [pipeline.step(state) for state in flight(of)]
-    recorder = McapRecorder(tmp_path / "log.mcap", head_S=of.platform.head_S, metadata={}, attachments={}, chunk_ticks=CHUNK)
+    recorder = McapRecorder(
+        tmp_path / "log.mcap",
+        head_S=of.platform.head_S,
+        metadata={},
+        attachments={},
+        chunk_ticks=CHUNK,
+    )
     held = {}
     tracemalloc.start()
     try:
         for number in range(4001):
             tick = ticks[number % len(ticks)]
-            state = VehicleState(number / RATE_HZ, tick.vehicle.q_NB, tick.vehicle.w_NB_B, tick.vehicle.f_B)
+            state = VehicleState(
+                number / RATE_HZ, tick.vehicle.q_NB, tick.vehicle.w_NB_B, tick.vehicle.f_B
+            )
             recorder.append(Tick(state, tick.cue, tick.motion, tick.wheels))
             if number in (400, 4000):
                 held[number] = tracemalloc.get_traced_memory()[0]
@@ -157,12 +179,34 @@ def modules(*arguments: str, folder: Path) -> set[str]:
         "print(*sorted(sys.modules), file=sys.stderr); sys.exit(status)"
     )
     command = [sys.executable, "-c", code, *arguments]
-    told = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=60, check=True).stderr.split()
+    told = subprocess.run(
+        command, cwd=folder, capture_output=True, text=True, timeout=60, check=True
+    ).stderr.split()
     return {name if name.startswith("atlas_cueing.") else name.split(".")[0] for name in told}
 
 
-HEAVY = {"clarabel", "dask", "distributed", "foxglove", "matplotlib", "plotly", "scipy", "viser", "websockets"}
-NUMBERS = {"daqp", "google", "jsbsim", "mcap", "numpy", "pydantic", "ruckig", "tomli_w", "zstandard"}
+HEAVY = {
+    "clarabel",
+    "dask",
+    "distributed",
+    "foxglove",
+    "matplotlib",
+    "plotly",
+    "scipy",
+    "viser",
+    "websockets",
+}
+NUMBERS = {
+    "daqp",
+    "google",
+    "jsbsim",
+    "mcap",
+    "numpy",
+    "pydantic",
+    "ruckig",
+    "tomli_w",
+    "zstandard",
+}
 
 
 def test_help_loads_no_more_than_the_command_line(tmp_path: Path) -> None:
@@ -170,7 +214,12 @@ def test_help_loads_no_more_than_the_command_line(tmp_path: Path) -> None:
     assert loaded & (HEAVY | NUMBERS) == set()
     assert {name for name in loaded if name.startswith("atlas_cueing.")} <= {
         f"atlas_cueing.{name}"
-        for name in ("cli", "errors", "printable", *(f"cli.{file.stem}" for file in (ROOT / "atlas_cueing/cli").glob("*.py")))
+        for name in (
+            "cli",
+            "errors",
+            "printable",
+            *(f"cli.{file.stem}" for file in (ROOT / "atlas_cueing/cli").glob("*.py")),
+        )
     }
 
 

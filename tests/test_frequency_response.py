@@ -22,7 +22,8 @@ from atlas_cueing.signals import STANDARD_GRAVITY as G
 SWEEP = ROOT / "scenarios" / "signal_sweep.toml"
 RATE_HZ = 120.0
 THREE = (0.631, 2.512, 6.31)  # rad/s
-# The linear stage: the planner of the defaults learns from what it is shown, and has no frequency response.
+# The linear stage: the planner of the defaults learns from what it is shown, and has no frequency
+# response.
 ONSET = ("cueing.stage.planner=onset", "cueing.stage.onset_rad_s=2", "cueing.force_gain=0.4")
 
 
@@ -54,10 +55,21 @@ def low_pass(s: complex, omega: float) -> complex:
 
 
 def stage(s: complex, of: Scenario) -> complex:
-    """Stage acceleration over what the head lacks, along x: the filter of `cueing/onset.py`, in continuous time."""
+    """Stage acceleration over what the head lacks, along x.
+
+    The filter of `cueing/onset.py`, in continuous time.
+    """
     p = of.file.cueing.stage_parameters()
     corner = 2.0 * pi * p.bandwidth
-    return p.force_gain[0] * corner / (s + corner) * s / (s + p.recentre[0]) * s**2 / (s + p.onset[0]) ** 2
+    return (
+        p.force_gain[0]
+        * corner
+        / (s + corner)
+        * s
+        / (s + p.recentre[0])
+        * s**2
+        / (s + p.onset[0]) ** 2
+    )
 
 
 def turning(s: complex, of: Scenario) -> tuple[complex, complex]:
@@ -73,12 +85,18 @@ def turning(s: complex, of: Scenario) -> tuple[complex, complex]:
             slow = low_pass(s, 1.0 / p.turn.smoothing)
             back = s + slow / p.turn.time
             low = low_pass(s, p.bandwidth)
-            return s * (1.0 - slow * low) / back, s * slow * (s * low + 1.0 / p.turn.time) / back * target
+            return (
+                s * (1.0 - slow * low) / back,
+                s * slow * (s * low + 1.0 / p.turn.time) / back * target,
+            )
         case ForceParameters() as p:
             return 0.0, s * low_pass(s, p.bandwidth) * target
         case ClassicalParameters() as p:
             washout = s**2 / (s + p.high_pass[1]) ** 2
-            return p.rotation_gain[1] * washout, s * p.tilt_gain[0] * low_pass(s, p.tilt_low_pass) * target
+            return (
+                p.rotation_gain[1] * washout,
+                s * p.tilt_gain[0] * low_pass(s, p.tilt_low_pass) * target,
+            )
     raise AssertionError(of.name)
 
 
@@ -100,7 +118,8 @@ def test_all_four_relations_are_those_of_the_theory(method: str, frequency: floa
     found = {axis: measured(method, axis, frequency) for axis in ("pitch_rate", "force_x")}
     for (driven, answer), (theory, scale) in wanted.items():
         response = found[driven][answer]
-        assert abs(phasor(response) - theory) / scale < 0.01 + 0.4 * frequency / RATE_HZ  # of a tick's delay
+        # of a tick's delay
+        assert abs(phasor(response) - theory) / scale < 0.01 + 0.4 * frequency / RATE_HZ
         assert response.limited_share == 0.0
 
 
@@ -138,7 +157,9 @@ def rounding(answer: np.ndarray, amplitude: float) -> float:
 
     (Golub and Van Loan, Matrix Computations, 5.3.) The answer is mostly offset and drift, which are far above a small gain.
     """
-    columns = np.column_stack([np.sin(FITTED * TIME), np.cos(FITTED * TIME), TIME**0, TIME - TIME.mean()])
+    columns = np.column_stack(
+        [np.sin(FITTED * TIME), np.cos(FITTED * TIME), TIME**0, TIME - TIME.mean()]
+    )
     least = np.linalg.svd(columns, compute_uv=False)[-1]
     return ROUNDING * float(np.finfo(float).eps * np.linalg.norm(answer) / least) / abs(amplitude)
 
@@ -181,7 +202,9 @@ class Late:
 
 @pytest.mark.usefixtures("quick")
 @pytest.mark.parametrize(("pipeline", "ticks"), [(build_pipeline, 0.0), (Late, 1.0)])
-def test_a_delay_is_measured_in_ticks(monkeypatch: pytest.MonkeyPatch, pipeline: Any, ticks: float) -> None:
+def test_a_delay_is_measured_in_ticks(
+    monkeypatch: pytest.MonkeyPatch, pipeline: Any, ticks: float
+) -> None:
     """Motion and state of one tick belong together: no delay. A tick too late would be seen."""
     monkeypatch.setattr(tool, "build_pipeline", pipeline)
     points = [measured("attitude", "yaw_rate", w)["yaw_rate"] for w in (2.512, 15.85)]

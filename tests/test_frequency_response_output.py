@@ -15,7 +15,9 @@ from frequency_tool import TOOL, tool
 from atlas_cueing.signals import STANDARD_GRAVITY as G
 
 
-def test_attitude_is_one_to_one_over_the_whole_band(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_attitude_is_one_to_one_over_the_whole_band(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
     """As a user does it: twelve frequencies as JSON, and a picture."""
     picture = tmp_path / "response.png"
     options = [
@@ -33,7 +35,11 @@ def test_attitude_is_one_to_one_over_the_whole_band(capsys: pytest.CaptureFixtur
     ]
     assert tool.main(options) == 0
     told = json.loads(capsys.readouterr().out)
-    assert (told["platform"], told["rate_hz"], told["force"]) == ("atlas-2.9m", 40.0, "follows the attitude")
+    assert (told["platform"], told["rate_hz"], told["force"]) == (
+        "atlas-2.9m",
+        40.0,
+        "follows the attitude",
+    )
     points = [tool.Response(**point) for point in told["responses"]]
     turns = [p for p in points if p.answer == "pitch_rate"]
     assert [p.frequency_rad_s for p in turns] == list(tool.FREQUENCIES)
@@ -41,7 +47,10 @@ def test_attitude_is_one_to_one_over_the_whole_band(capsys: pytest.CaptureFixtur
     assert abs(tool.delay_ticks(turns, 40.0)) < 0.02
     for p in (p for p in points if p.answer == "force_x"):
         assert p.gain == pytest.approx(G / p.frequency_rad_s, rel=0.02)
-        assert (p.pilot_phase_deg, p.phase_deg) == (pytest.approx(-90.0, abs=0.1), pytest.approx(-90.0, abs=0.5))
+        assert (p.pilot_phase_deg, p.phase_deg) == (
+            pytest.approx(-90.0, abs=0.1),
+            pytest.approx(-90.0, abs=0.5),
+        )
     assert shown_colours(picture) > 2
 
 
@@ -55,12 +64,27 @@ def shown_colours(picture: Path) -> int:
 
 
 def response(**changes: Any) -> Any:
-    plain = tool.Response("attitude", "rotation to rotation", "yaw_rate", "yaw_rate", 1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
+    plain = tool.Response(
+        "attitude",
+        "rotation to rotation",
+        "yaw_rate",
+        "yaw_rate",
+        1.0,
+        1.0,
+        0.0,
+        0.0,
+        1.0,
+        0.0,
+        0.0,
+    )
     return replace(plain, **changes)
 
 
 def test_table() -> None:
-    lines = tool.table([response(phase_deg=-0.5), response(frequency_rad_s=10.0, gain=0.98, limited_share=0.1)], 120.0)
+    lines = tool.table(
+        [response(phase_deg=-0.5), response(frequency_rad_s=10.0, gain=0.98, limited_share=0.1)],
+        120.0,
+    )
     assert lines.splitlines() == [
         "attitude: rotation to rotation, gain [-] and phase [deg]; pilot: 1",
         " rad/s      yaw_rate > yaw_rate",
@@ -79,21 +103,32 @@ def test_table_of_force_shows_the_pilots_beside() -> None:
         "pilot_gain": 9.8,
         "pilot_phase_deg": 90.0,
     }
-    lines = tool.table([response(**sway, gain=0.0, phase_deg=nan), response(gain=0.5)], 120.0).splitlines()
+    lines = tool.table(
+        [response(**sway, gain=0.0, phase_deg=nan), response(gain=0.5)], 120.0
+    ).splitlines()
     assert lines[-1] == "  largest residual 0.0e+00"
     assert "  yaw_rate: gain within 5.0e-01 of 1" in lines
-    assert [line for line in lines if "roll_rate" in line] == [" rad/s      roll_rate > force_y               pilot"]
-    assert [line for line in lines if "9.8" in line] == ["     1         0.0000        -      9.8000    90.00"]
+    assert [line for line in lines if "roll_rate" in line] == [
+        " rad/s      roll_rate > force_y               pilot"
+    ]
+    assert [line for line in lines if "9.8" in line] == [
+        "     1         0.0000        -      9.8000    90.00"
+    ]
 
 
 def test_pictures_of_nothing_but_yaw(tmp_path: Path) -> None:
     """Three of the four relations are empty, and a phase passes half a turn."""
-    points = [response(frequency_rad_s=w, phase_deg=p) for w, p in ((1.0, -170.0), (2.0, 170.0), (3.0, nan))]
+    points = [
+        response(frequency_rad_s=w, phase_deg=p)
+        for w, p in ((1.0, -170.0), (2.0, 170.0), (3.0, nan))
+    ]
     tool.draw(points, "yaw", tmp_path / "yaw.png")
     assert shown_colours(tmp_path / "yaw.png") > 0
 
 
-def test_a_platform_at_its_limits_is_told(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_platform_at_its_limits_is_told(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.setattr(tool, "FREQUENCIES", (10.0,))
     monkeypatch.setattr(tool, "_SETTLED_S", 21.0)
     slow = [
@@ -109,7 +144,9 @@ def test_a_platform_at_its_limits_is_told(monkeypatch: pytest.MonkeyPatch, capsy
     assert tool.main(slow) == 1
     out, err = capsys.readouterr()
     assert "*" in out
-    assert err.startswith("limited: attitude, yaw_rate > yaw_rate at 10 rad/s: the platform fell behind on ")
+    assert err.startswith(
+        "limited: attitude, yaw_rate > yaw_rate at 10 rad/s: the platform fell behind on "
+    )
 
 
 @pytest.mark.parametrize(
@@ -119,8 +156,14 @@ def test_a_platform_at_its_limits_is_told(monkeypatch: pytest.MonkeyPatch, capsy
         (["--rotation-deg", "nan"], "error: --rotation-deg nan, allowed: 0 < value <= 45"),
         (["--force-m-s2", "-1"], "error: --force-m-s2 -1, allowed: 0 < value <= 50"),
         (["--jobs", "0"], "error: --jobs 0, allowed: 0 < value <= 1000"),
-        (["--plot", "nowhere/x.png"], "error: --plot nowhere/x.png, allowed: a file .png, .svg, .pdf in an existing folder"),
-        (["--plot", "x.bmp"], "error: --plot x.bmp, allowed: a file .png, .svg, .pdf in an existing folder"),
+        (
+            ["--plot", "nowhere/x.png"],
+            "error: --plot nowhere/x.png, allowed: a file .png, .svg, .pdf in an existing folder",
+        ),
+        (
+            ["--plot", "x.bmp"],
+            "error: --plot x.bmp, allowed: a file .png, .svg, .pdf in an existing folder",
+        ),
         (["missing.toml"], "error: missing.toml: file: cannot be read: No such file or directory"),
         (
             ["--method", "attitude", "--set", "cueing.methd=1"],
@@ -135,18 +178,38 @@ def test_bad_input(capsys: pytest.CaptureFixture[str], options: list[str], messa
     assert err.startswith(message)
 
 
-def test_a_plot_needs_its_extra(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_plot_needs_its_extra(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.setattr(tool, "find_spec", lambda _: None)
     assert tool.main(["--plot", "x.png"]) == 2
     assert "--plot needs matplotlib" in capsys.readouterr().err
 
 
 def test_the_command_gives_the_same_with_two_processes(capsys: pytest.CaptureFixture[str]) -> None:
-    options = ["--method", "attitude", "--axis", "roll_rate", "--rate-hz", "21", "--hold-force", "--json", "--jobs"]
-    done = subprocess.run([sys.executable, TOOL, *options, "2"], capture_output=True, text=True, timeout=300, check=True)
+    options = [
+        "--method",
+        "attitude",
+        "--axis",
+        "roll_rate",
+        "--rate-hz",
+        "21",
+        "--hold-force",
+        "--json",
+        "--jobs",
+    ]
+    done = subprocess.run(
+        [sys.executable, TOOL, *options, "2"],
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=True,
+    )
     assert done.stderr == ""
     assert tool.main([*options, "1"]) == 0
     assert capsys.readouterr().out == done.stdout
     told = json.loads(done.stdout)
     assert told["force"] == "held"
-    assert [p["pilot_gain"] for p in told["responses"] if p["answer"] == "force_y"] == [0.0] * len(tool.FREQUENCIES)
+    assert [p["pilot_gain"] for p in told["responses"] if p["answer"] == "force_y"] == [0.0] * len(
+        tool.FREQUENCIES
+    )

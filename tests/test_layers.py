@@ -10,12 +10,22 @@ import pytest
 ROOT = Path(__file__).parents[1]
 TOP = {"README.md", "atlas_cueing", "pyproject.toml", "scenarios", "tests", "tools"}
 SDIST = {"PKG-INFO", "setup.cfg"}  # added by setuptools to an sdist
-LINT = [sys.executable, "-c", "from importlinter.cli import lint_imports_command; lint_imports_command()", "--no-cache"]
+LINT = [
+    sys.executable,
+    "-c",
+    "from importlinter.cli import lint_imports_command; lint_imports_command()",
+    "--no-cache",
+]
 
 
 def lint(folder: Path) -> subprocess.CompletedProcess[str]:
-    """The contracts of pyproject.toml, in a process of its own: it imports what is in the folder, not what is installed."""
-    return subprocess.run(LINT, cwd=folder, capture_output=True, text=True, timeout=300, check=False)
+    """The contracts of pyproject.toml, in a process of its own.
+
+    It imports what is in the folder, not what is installed.
+    """
+    return subprocess.run(
+        LINT, cwd=folder, capture_output=True, text=True, timeout=300, check=False
+    )
 
 
 def test_the_contracts_are_kept() -> None:
@@ -28,7 +38,11 @@ def test_the_contracts_are_kept() -> None:
 @pytest.mark.parametrize(
     ("file", "line", "contract"),
     [
-        ("rotation.py", "from .errors import AtlasError\nfrom .signals import Cue", "imports go down only"),
+        (
+            "rotation.py",
+            "from .errors import AtlasError\nfrom .signals import Cue",
+            "imports go down only",
+        ),
         ("cueing/damping.py", "from ..smoothing import Stop", "imports go down only"),
         ("cueing/damping.py", "import ruckig", "only smoothing knows ruckig"),
         ("smoothing/stop.py", "import jsbsim", "only vehicles knows JSBSim"),
@@ -38,7 +52,11 @@ def test_the_contracts_are_kept() -> None:
 )
 def test_a_breach_is_seen(tmp_path: Path, file: str, line: str, contract: str) -> None:
     """The contracts can fail: one forbidden line, or a noun that has no layer, in a copy of the package."""
-    shutil.copytree(ROOT / "atlas_cueing", tmp_path / "atlas_cueing", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(
+        ROOT / "atlas_cueing",
+        tmp_path / "atlas_cueing",
+        ignore=shutil.ignore_patterns("__pycache__"),
+    )
     shutil.copy(ROOT / "pyproject.toml", tmp_path)
     breached = tmp_path / "atlas_cueing" / file
     breached.write_text((breached.read_text() if breached.exists() else "") + f"\n{line}\n")
@@ -48,11 +66,18 @@ def test_a_breach_is_seen(tmp_path: Path, file: str, line: str, contract: str) -
 
 
 def tracked() -> set[str]:
-    """First part of the path of every tracked file; of every file there is, where there is no git."""
+    """First part of the path of every tracked file.
+
+    Of every file there is, where there is no git.
+    """
     if shutil.which("git") and (ROOT / ".git").exists():
-        listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, timeout=60, check=True)
+        listed = subprocess.run(
+            ["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, timeout=60, check=True
+        )
         return {line.split("/")[0] for line in listed.stdout.splitlines()}
-    found = {path.name for path in ROOT.iterdir() if not path.name.endswith((".egg-info", "__pycache__"))}
+    found = {
+        path.name for path in ROOT.iterdir() if not path.name.endswith((".egg-info", "__pycache__"))
+    }
     return found - SDIST
 
 

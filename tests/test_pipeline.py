@@ -23,7 +23,9 @@ class SpyDrive:
 
 
 def cueing() -> Cueing:
-    return build_cueing(BlendParameters(), StageParameters(), PLATFORM.stage_limit_values(), PLATFORM.head_S, DT)
+    return build_cueing(
+        BlendParameters(), StageParameters(), PLATFORM.stage_limit_values(), PLATFORM.head_S, DT
+    )
 
 
 def smoothing() -> Smoothing:
@@ -37,7 +39,10 @@ def smoothing() -> Smoothing:
 
 
 def states() -> list[VehicleState]:
-    return [VehicleState(n * DT, IDENTITY, (0.0, 0.0, 0.01 * n), (0.1, 0.0, -STANDARD_GRAVITY)) for n in range(20)]
+    return [
+        VehicleState(n * DT, IDENTITY, (0.0, 0.0, 0.01 * n), (0.1, 0.0, -STANDARD_GRAVITY))
+        for n in range(20)
+    ]
 
 
 def test_each_stage_is_given_what_the_one_before_made() -> None:
@@ -49,7 +54,12 @@ def test_each_stage_is_given_what_the_one_before_made() -> None:
         tick = pipeline.step(state)
         cue = by_hand.step(state)
         motion = allowed.step(cue)
-        assert (tick.vehicle, tick.cue, tick.motion, tick.wheels) == (state, cue, motion, WHEELS.speeds(motion))
+        assert (tick.vehicle, tick.cue, tick.motion, tick.wheels) == (
+            state,
+            cue,
+            motion,
+            WHEELS.speeds(motion),
+        )
         assert drive.motions[-1] == motion
     assert len(drive.motions) == 20
     assert tick.motion.w_WS_W != ZERO

@@ -6,7 +6,12 @@ from hypothesis import strategies as st
 
 from atlas_cueing.printable import html_text, is_name, printable, printable_lines, utf8
 
-ANY = st.text(st.one_of(st.characters(exclude_categories=()), st.sampled_from("\x1b\r\n\t\x9b\u202e\u2066\u200b\u2028\udce9")))
+ANY = st.text(
+    st.one_of(
+        st.characters(exclude_categories=()),
+        st.sampled_from("\x1b\r\n\t\x9b\u202e\u2066\u200b\u2028\udce9"),
+    )
+)
 
 
 @given(ANY)
@@ -43,6 +48,8 @@ def test_a_page_takes_it_as_text() -> None:
     assert html_text("</script>\u202e'\"") == "&lt;/script&gt;\\u202e&#x27;&quot;"
 
 
-@pytest.mark.parametrize(("text", "fits"), [("", False), ("a\n", False), ("a b", True), (os.fsdecode(b"\xe9"), True)])
+@pytest.mark.parametrize(
+    ("text", "fits"), [("", False), ("a\n", False), ("a b", True), (os.fsdecode(b"\xe9"), True)]
+)
 def test_names_of_files(text: str, fits: bool) -> None:
     assert is_name(text) == fits

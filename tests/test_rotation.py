@@ -18,11 +18,19 @@ EPS = 1e-14
 
 number = st.floats(-1.0, 1.0, allow_subnormal=False)
 vector = st.tuples(number, number, number)
-direction = vector.filter(lambda v: rot.norm(v) > 0.1).map(lambda v: rot.scale(1.0 / rot.norm(v), v))
-quaternion = st.tuples(number, number, number, number).filter(lambda q: np.hypot.reduce(q) > 0.1).map(rot.normalise)
+direction = vector.filter(lambda v: rot.norm(v) > 0.1).map(
+    lambda v: rot.scale(1.0 / rot.norm(v), v)
+)
+quaternion = (
+    st.tuples(number, number, number, number)
+    .filter(lambda q: np.hypot.reduce(q) > 0.1)
+    .map(rot.normalise)
+)
 # Everywhere, and crowded near no turn, half a turn and a full turn.
 near = st.sampled_from([0.0, pi, 2.0 * pi]).flatmap(
-    lambda at: st.floats(-12.0, -2.0).flatmap(lambda e: st.sampled_from([at - 10.0**e, at + 10.0**e]))
+    lambda at: st.floats(-12.0, -2.0).flatmap(
+        lambda e: st.sampled_from([at - 10.0**e, at + 10.0**e])
+    )
 )
 angle = (st.floats(0.0, 2.0 * pi) | near).map(lambda x: abs(x) % (2.0 * pi))
 
@@ -44,11 +52,17 @@ def small_turn(axis: Vec3, size: float) -> Quat:
 
 @given(quaternion, quaternion, quaternion)
 def test_group_axioms(p: Quat, q: Quat, r: Quat) -> None:
-    assert_allclose(rot.multiply(rot.multiply(p, q), r), rot.multiply(p, rot.multiply(q, r)), atol=EPS)
+    assert_allclose(
+        rot.multiply(rot.multiply(p, q), r), rot.multiply(p, rot.multiply(q, r)), atol=EPS
+    )
     assert rot.multiply(p, IDENTITY) == p == rot.multiply(IDENTITY, p)
     assert_allclose(rot.multiply(p, rot.conjugate(p)), IDENTITY, atol=EPS)
     assert_allclose(rot.multiply(rot.conjugate(p), p), IDENTITY, atol=EPS)
-    assert_allclose(rot.conjugate(rot.multiply(p, q)), rot.multiply(rot.conjugate(q), rot.conjugate(p)), atol=EPS)
+    assert_allclose(
+        rot.conjugate(rot.multiply(p, q)),
+        rot.multiply(rot.conjugate(q), rot.conjugate(p)),
+        atol=EPS,
+    )
     assert np.hypot.reduce(rot.multiply(p, q)) == pytest.approx(1.0, abs=EPS)
 
 
@@ -57,7 +71,9 @@ def test_hamilton() -> None:
     i, j, k = (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0)
     assert rot.multiply(i, j) == k
     assert rot.multiply(i, i) == (-1.0, 0.0, 0.0, 0.0)
-    assert_allclose(rot.rotate((sqrt(0.5), 0.0, 0.0, sqrt(0.5)), (1.0, 0.0, 0.0)), (0.0, 1.0, 0.0), atol=EPS)
+    assert_allclose(
+        rot.rotate((sqrt(0.5), 0.0, 0.0, sqrt(0.5)), (1.0, 0.0, 0.0)), (0.0, 1.0, 0.0), atol=EPS
+    )
 
 
 @given(quaternion, quaternion, vector)
@@ -101,7 +117,9 @@ def test_exp_and_log_there_and_back(axis: Vec3, size: float) -> None:
     back = rot.log(q)
     assert rot.norm(back) <= pi + EPS
     if abs(size - pi) > 1e-12:  # either way round at half a turn
-        assert_allclose(back, rot.scale(shorter, axis), rtol=1e-12, atol=1e-15 if size < 1.0 else 1e-14)
+        assert_allclose(
+            back, rot.scale(shorter, axis), rtol=1e-12, atol=1e-15 if size < 1.0 else 1e-14
+        )
         assert_allclose(back, scipy(q).as_rotvec(), rtol=1e-9, atol=1e-12)
     same(rot.exp(back), q)
 
@@ -110,8 +128,11 @@ def test_exp_and_log_there_and_back(axis: Vec3, size: float) -> None:
 def test_log_unwound_keeps_the_longer_way(axis: Vec3, size: float) -> None:
     if 2.0 * pi - size > 1e-13:
         found = rot.log_unwound(small_turn(axis, size))
-        # half a unit in the last place of w or x is all the quaternion knows about the axis near a full turn
-        assert_allclose(found, rot.scale(size, axis), rtol=0.0, atol=1e-14 / max(2.0 * pi - size, 1e-2) + 1e-14)
+        # half a unit in the last place of w or x is all the quaternion knows about the axis near a
+        # full turn
+        assert_allclose(
+            found, rot.scale(size, axis), rtol=0.0, atol=1e-14 / max(2.0 * pi - size, 1e-2) + 1e-14
+        )
         assert_allclose(rot.exp(found), small_turn(axis, size), atol=EPS)
 
 
@@ -127,7 +148,9 @@ def test_small_turns_keep_their_relative_precision(size: float) -> None:
 def test_a_full_turn_has_its_length() -> None:
     assert rot.log((-1.0, 0.0, 0.0, 0.0)) == rot.log(IDENTITY) == (0.0, 0.0, 0.0)
     assert rot.norm(rot.log_unwound((-1.0, 0.0, 0.0, 0.0))) == 2.0 * pi
-    assert rot.norm(rot.log_unwound(small_turn((0.0, 1.0, 0.0), 2.0 * pi - 1e-9))) == pytest.approx(2.0 * pi - 1e-9)
+    assert rot.norm(rot.log_unwound(small_turn((0.0, 1.0, 0.0), 2.0 * pi - 1e-9))) == pytest.approx(
+        2.0 * pi - 1e-9
+    )
 
 
 @given(quaternion, quaternion)
@@ -178,14 +201,20 @@ def test_shortest_arc_of_opposite_vectors(a: Vec3, exponent: float) -> None:
     b = rot.add(rot.scale(-1.0, a), rot.scale(10.0**exponent, rot.cross(a, (a[1], a[2], -a[0]))))
     q = rot.shortest_arc(a, b)
     # the cross product knows its direction only to eps / 10^exponent
-    assert_allclose(rot.rotate(q, a), rot.scale(1.0 / rot.norm(b), b), atol=3e-12 + min(1e-15 / 10.0**exponent, 2e-3))
+    assert_allclose(
+        rot.rotate(q, a),
+        rot.scale(1.0 / rot.norm(b), b),
+        atol=3e-12 + min(1e-15 / 10.0**exponent, 2e-3),
+    )
     assert np.hypot.reduce(q) == pytest.approx(1.0, abs=EPS)
 
 
 @pytest.mark.parametrize("a", [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (0.7, 0.7, 0.0)])
 def test_shortest_arc_of_exact_opposites_and_of_nothing(a: Vec3) -> None:
     opposite = rot.scale(-2.0, a)
-    assert_allclose(rot.rotate(rot.shortest_arc(a, opposite), a), rot.scale(0.5, opposite), atol=1e-14)
+    assert_allclose(
+        rot.rotate(rot.shortest_arc(a, opposite), a), rot.scale(0.5, opposite), atol=1e-14
+    )
     assert rot.shortest_arc(a, a) == IDENTITY
     assert rot.shortest_arc(a, (0.0, 0.0, 0.0)) == IDENTITY
 
@@ -199,9 +228,17 @@ def test_euler_there_and_back(psi: float, theta: float, phi: float) -> None:
     same(rot.from_euler(*rot.to_euler(q)), q, 1e-11)
 
 
-@given(st.floats(-pi, pi), st.sampled_from([-1.0, 1.0]), st.floats(-pi, pi), st.sampled_from([0.0, 1e-13, 1e-9, 1e-7, 1e-5]))
+@given(
+    st.floats(-pi, pi),
+    st.sampled_from([-1.0, 1.0]),
+    st.floats(-pi, pi),
+    st.sampled_from([0.0, 1e-13, 1e-9, 1e-7, 1e-5]),
+)
 def test_euler_straight_up_and_down(psi: float, sign: float, phi: float, off: float) -> None:
-    """The orientation comes back although the angles are not unique; within 1.5e-6 rad of vertical it is put to vertical."""
+    """The orientation comes back although the angles are not unique.
+
+    Within 1.5e-6 rad of vertical it is put to vertical.
+    """
     q = rot.from_euler(psi, sign * (0.5 * pi - off), phi)
     angles = rot.to_euler(q)
     assert abs(angles[1]) == pytest.approx(0.5 * pi, abs=off + 2e-6)
@@ -213,11 +250,14 @@ def test_flip_rotation_is_a_change_of_both_frames(q: Quat, v: Vec3) -> None:
     D = np.diag([1.0, -1.0, -1.0])
     assert_allclose(scipy(rot.flip_rotation(q)).as_matrix(), D @ scipy(q).as_matrix() @ D, atol=EPS)
     assert_allclose(rot.flip(v), D @ v)
-    assert_allclose(rot.rotate(rot.flip_rotation(q), rot.flip(v)), rot.flip(rot.rotate(q, v)), atol=EPS)
+    assert_allclose(
+        rot.rotate(rot.flip_rotation(q), rot.flip(v)), rot.flip(rot.rotate(q, v)), atol=EPS
+    )
     assert rot.flip_rotation(rot.flip_rotation(q)) == q
 
 
-# --- integration: a rate whose axis swings, integrated by RK4 on the 4-vector at very small steps ---------------------
+# --- integration: a rate whose axis swings, integrated by RK4 on the 4-vector at very small steps
+# ---------------------
 
 
 def rate(t: float) -> Vec3:
@@ -225,14 +265,20 @@ def rate(t: float) -> Vec3:
 
 
 def rate_integral(t: float) -> Vec3:
-    return (1.3 / 2.1 * sin(2.1 * t), -0.9 / 1.7 * cos(1.7 * t) + 0.4 * t, -1.1 / 0.8 * sin(0.8 * t + 0.3))
+    return (
+        1.3 / 2.1 * sin(2.1 * t),
+        -0.9 / 1.7 * cos(1.7 * t) + 0.4 * t,
+        -1.1 / 0.8 * sin(0.8 * t + 0.3),
+    )
 
 
 def quaternion_rate(frame: str, t: float, q: Array) -> Array:
     """q' = 1/2 w q in the base frame, 1/2 q w in the body frame, as matrices written out for this test."""
     x, y, z = rate(t)
     s = 1.0 if frame == "base" else -1.0
-    m = np.array([[0, -x, -y, -z], [x, 0, -s * z, s * y], [y, s * z, 0, -s * x], [z, -s * y, s * x, 0]])
+    m = np.array(
+        [[0, -x, -y, -z], [x, 0, -s * z, s * y], [y, s * z, 0, -s * x], [z, -s * y, s * x, 0]]
+    )
     return 0.5 * m @ q
 
 
@@ -264,10 +310,14 @@ def test_integration_is_of_fourth_order(frame: str) -> None:
     start = rot.normalise((0.3, -0.5, 0.7, 0.2))
     exact = tuple(fine(frame, start, 4.0))
     right = [rot.geodesic(exact, coarse(frame, start, 4.0, n)) for n in (20, 40, 80)]
-    wrong = [rot.geodesic(exact, coarse(frame, start, 4.0, n, commutator=-1.0)) for n in (20, 40, 80)]
+    wrong = [
+        rot.geodesic(exact, coarse(frame, start, 4.0, n, commutator=-1.0)) for n in (20, 40, 80)
+    ]
     assert right[0] / right[1] == pytest.approx(16.0, rel=0.25)
     assert right[1] / right[2] == pytest.approx(16.0, rel=0.1)
-    assert wrong[1] / wrong[2] == pytest.approx(4.0, rel=0.1), "the sign of the commutator should matter"
+    assert wrong[1] / wrong[2] == pytest.approx(4.0, rel=0.1), (
+        "the sign of the commutator should matter"
+    )
     assert right[2] < 1e-2 * wrong[2]
 
 

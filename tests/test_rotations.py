@@ -21,7 +21,9 @@ def test_multiply_is_composition() -> None:
 
 
 def test_a_single_quaternion_multiplies_all() -> None:
-    np.testing.assert_array_equal(multiply(quats(P)[0], quats(Q))[7], multiply(quats(P)[0], quats(Q)[7]))
+    np.testing.assert_array_equal(
+        multiply(quats(P)[0], quats(Q))[7], multiply(quats(P)[0], quats(Q)[7])
+    )
 
 
 def test_geodesic_whatever_the_signs() -> None:
@@ -30,10 +32,14 @@ def test_geodesic_whatever_the_signs() -> None:
     np.testing.assert_allclose(geodesic(-quats(P), quats(Q)), expected, atol=1e-12)
 
 
-@pytest.mark.parametrize("angle", [0.0, 1e-300, 1e-12, 1e-8, 1e-4, 1.0, np.pi - 1e-9, np.pi, 5.0, 100.0])
+@pytest.mark.parametrize(
+    "angle", [0.0, 1e-300, 1e-12, 1e-8, 1e-4, 1.0, np.pi - 1e-9, np.pi, 5.0, 100.0]
+)
 def test_exp_is_that_of_rotation(angle: float) -> None:
     phi = angle * np.array([0.6, -0.64, 0.48])
-    np.testing.assert_allclose(exp(phi[None])[0], rotation.exp(tuple(phi.tolist())), rtol=0, atol=1e-14)
+    np.testing.assert_allclose(
+        exp(phi[None])[0], rotation.exp(tuple(phi.tolist())), rtol=0, atol=1e-14
+    )
 
 
 @pytest.mark.parametrize("angle", [1e-12, 1e-8, 1e-3, 3.0, np.pi - 1e-9])
@@ -48,4 +54,6 @@ def test_turns_accumulate_one_after_the_other(n: int) -> None:
     expected = [rotation.normalise((0.1, 0.2, -0.3, 0.4))]
     for turn in turns.tolist():
         expected.append(rotation.multiply((turn[0], turn[1], turn[2], turn[3]), expected[-1]))
-    np.testing.assert_allclose(accumulated(np.array(expected[0]), turns), expected, rtol=0, atol=1e-13)
+    np.testing.assert_allclose(
+        accumulated(np.array(expected[0]), turns), expected, rtol=0, atol=1e-13
+    )

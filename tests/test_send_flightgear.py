@@ -19,16 +19,33 @@ def command(*arguments: str) -> list[str]:
 
 
 def told(arguments: Sequence[str], folder: Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(command(*arguments), cwd=folder, capture_output=True, text=True, timeout=60, check=False)
+    return subprocess.run(
+        command(*arguments), cwd=folder, capture_output=True, text=True, timeout=60, check=False
+    )
 
 
 def test_a_script_is_sent_at_the_rate_asked_for(tmp_path: Path) -> None:
-    """Two seconds at ten times real time; nothing is left in the folder, although the aircraft has an output of its own."""
+    """Two seconds at ten times real time.
+
+    Nothing is left in the folder, although the aircraft has an output of its own.
+    """
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as port:
         port.bind(("127.0.0.1", 0))
         port.settimeout(60.0)
-        arguments = ("c1723", "--port", str(port.getsockname()[1]), "--duration", "2", "--speed", "10", "--rate", "30")
-        with subprocess.Popen(command(*arguments), cwd=tmp_path, stdout=subprocess.PIPE, text=True) as sending:
+        arguments = (
+            "c1723",
+            "--port",
+            str(port.getsockname()[1]),
+            "--duration",
+            "2",
+            "--speed",
+            "10",
+            "--rate",
+            "30",
+        )
+        with subprocess.Popen(
+            command(*arguments), cwd=tmp_path, stdout=subprocess.PIPE, text=True
+        ) as sending:
             states = [decode(port.recv(2048), 0.0, Bounds()) for _ in range(60)]
             out, _ = sending.communicate(timeout=60.0)
     assert sending.returncode == 0

@@ -1,4 +1,7 @@
-"""`tools/setup`: what it installs, when it does so again, and what it says first. With programs that only note their call."""
+"""`tools/setup`: what it installs, when it does so again, and what it says first.
+
+With programs that only note their call.
+"""
 
 import shutil
 import subprocess
@@ -8,7 +11,8 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-NEEDED = ("dirname", "sed", "cksum", "tr", "grep", "touch", "cat", "env")  # by the script, of the machine's own
+# by the script, of the machine's own
+NEEDED = ("dirname", "sed", "cksum", "tr", "grep", "touch", "cat", "env")
 NOTING = '#!/bin/sh\necho "$0 $*" >> {calls}\n'
 
 
@@ -16,7 +20,11 @@ class Project:
     """A folder with the script, a pyproject.toml and an environment whose pip notes what it is asked for."""
 
     def __init__(self, folder: Path) -> None:
-        self.folder, self.calls, self.programs = folder / "project", folder / "calls", folder / "programs"
+        self.folder, self.calls, self.programs = (
+            folder / "project",
+            folder / "calls",
+            folder / "programs",
+        )
         (self.folder / "tools").mkdir(parents=True)
         (self.folder / ".venv" / "bin").mkdir(parents=True)
         self.programs.mkdir()
@@ -39,8 +47,18 @@ class Project:
         self.calls.write_text("")
         command = ["/bin/sh", str(self.folder / "tools" / "setup"), *extra]
         environment = {"PATH": str(self.programs), "PYTHON": sys.executable}
-        told = subprocess.run(command, env=environment, cwd="/", capture_output=True, text=True, timeout=60, check=False)
-        installed = [line.split()[-1] for line in self.calls.read_text().splitlines() if " install " in line]
+        told = subprocess.run(
+            command,
+            env=environment,
+            cwd="/",
+            capture_output=True,
+            text=True,
+            timeout=60,
+            check=False,
+        )
+        installed = [
+            line.split()[-1] for line in self.calls.read_text().splitlines() if " install " in line
+        ]
         return told.returncode, told.stderr, installed
 
     def replace(self, old: str, new: str) -> None:
@@ -93,7 +111,11 @@ def test_a_failed_installation_is_tried_again(project: Project) -> None:
 
 
 def test_an_unknown_extra_is_refused(project: Project) -> None:
-    assert project.setup("nonsense") == (2, "tools/setup: no extra 'nonsense' in pyproject.toml\n", [])
+    assert project.setup("nonsense") == (
+        2,
+        "tools/setup: no extra 'nonsense' in pyproject.toml\n",
+        [],
+    )
     project.setup("dev")
     assert project.setup("nonsense")[0] == 2
 
@@ -103,8 +125,10 @@ def test_root_is_told_of_chromium_before_anything_is_installed(project: Project)
     project.program("apt-get")
     status, said, installed = project.setup("dev")
     assert (status, installed) == (0, [".[dev]", "chromium"])
-    assert said.splitlines()[0] == (
-        "tools/setup: will install chromium with apt-get, for the browser tests; all else goes into .venv"
+    assert (
+        said.splitlines()[0]
+        == "tools/setup: will install chromium with apt-get, for the browser tests; all else goes"
+        " into .venv"
     )
 
 

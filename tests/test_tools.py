@@ -11,17 +11,28 @@ import environment
 import pytest
 
 ROOT = Path(__file__).parents[1]
-TOOLS = sorted(path for path in (ROOT / "tools").iterdir() if path.is_file() and path.read_bytes()[:40].find(b"python") > 0)
-BARE = getattr(sys, "_base_executable", sys.executable)  # the interpreter without the packages of its environment
+TOOLS = sorted(
+    path
+    for path in (ROOT / "tools").iterdir()
+    if path.is_file() and path.read_bytes()[:40].find(b"python") > 0
+)
+# the interpreter without the packages of its environment
+BARE = getattr(sys, "_base_executable", sys.executable)
 
 
-def called(command: list[str | Path], folder: Path, **more: str) -> subprocess.CompletedProcess[str]:
+def called(
+    command: list[str | Path], folder: Path, **more: str
+) -> subprocess.CompletedProcess[str]:
     setting = {"PATH": os.environ["PATH"], "HOME": str(folder), **more}
-    return subprocess.run(command, cwd=folder, env=setting, capture_output=True, text=True, timeout=300, check=False)
+    return subprocess.run(
+        command, cwd=folder, env=setting, capture_output=True, text=True, timeout=300, check=False
+    )
 
 
 def test_there_are_tools() -> None:
-    assert {"results", "check_readme", "pictures", "send_flightgear"} <= {tool.name for tool in TOOLS}
+    assert {"results", "check_readme", "pictures", "send_flightgear"} <= {
+        tool.name for tool in TOOLS
+    }
 
 
 @pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: tool.name)
@@ -41,7 +52,9 @@ def test_wrong_arguments_are_told_in_a_line(tool: Path, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["results", "stage_ratio", "preview_gap", "washout_angles"])
 @pytest.mark.parametrize("scenario", ["no_such_scenario", "bad.toml", "empty_folder"])
-def test_a_scenario_that_cannot_be_flown_is_told_in_a_line(name: str, scenario: str, tmp_path: Path) -> None:
+def test_a_scenario_that_cannot_be_flown_is_told_in_a_line(
+    name: str, scenario: str, tmp_path: Path
+) -> None:
     (tmp_path / "bad.toml").write_text("name = 3\n")
     (tmp_path / "empty_folder").mkdir()
     told = called([sys.executable, ROOT / "tools" / name, scenario], tmp_path)
@@ -58,7 +71,10 @@ def copied(folder: Path, setup: str) -> Path:
     (tools / "setup").write_text(f"#!/bin/sh\n{setup}\n")
     (tools / "setup").chmod(0o755)
     tool = tools / "where"
-    tool.write_text('import sys\nfrom environment import enter\n\nenter("live")\nprint(sys.executable, *sys.argv[1:])\n')
+    tool.write_text(
+        'import sys\nfrom environment import enter\n\nenter("live")\nprint(sys.executable,'
+        " *sys.argv[1:])\n"
+    )
     return tool
 
 
@@ -80,7 +96,9 @@ def test_a_tool_stays_in_an_interpreter_that_has_all_it_needs(tmp_path: Path) ->
 
 
 @pytest.mark.parametrize(("extra", "lacking"), [("", False), ("dev", False), ("preview", True)])
-def test_what_is_lacking_is_what_the_extra_asks_for(extra: str, lacking: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_lacking_is_what_the_extra_asks_for(
+    extra: str, lacking: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def requires(_: str) -> list[str]:
         return ["numpy>=2.0", 'pytest>=8; extra == "dev"', "no-such-package>=1; extra == 'preview'"]
 
@@ -88,14 +106,22 @@ def test_what_is_lacking_is_what_the_extra_asks_for(extra: str, lacking: bool, m
     assert environment._lacking(extra) is lacking
 
 
-def test_a_dependency_that_is_missing_is_lacking_for_every_tool(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(environment.metadata, "requires", lambda _: ["no-such-package>=1; python_version > '3'"])
+def test_a_dependency_that_is_missing_is_lacking_for_every_tool(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(
+        environment.metadata, "requires", lambda _: ["no-such-package>=1; python_version > '3'"]
+    )
     assert environment._lacking("")
 
 
 def test_an_interrupt_leaves_no_traceback(tmp_path: Path) -> None:
     tool = copied(tmp_path, "exit 2")
-    for error, shown in (("KeyboardInterrupt", ""), ("BrokenPipeError", ""), ("ValueError('x')", "Traceback")):
+    for error, shown in (
+        ("KeyboardInterrupt", ""),
+        ("BrokenPipeError", ""),
+        ("ValueError('x')", "Traceback"),
+    ):
         tool.write_text(f"from environment import enter\n\nenter()\nraise {error}\n")
         told = called([sys.executable, tool], tmp_path)
         assert told.returncode != 0

@@ -10,7 +10,8 @@ LOOK_S = 0.005  # s between two looks
 def until(what: Callable[[], object], seconds: float = 30.0) -> None:
     """Wait for something that has to happen, and soon.
 
-    What counts is how often was looked: while the machine stands still, for whatever reason, nobody gets older.
+    What counts is how often was looked: while the machine stands still, for whatever reason, nobody
+        gets older.
     """
     for look in count():
         if what():

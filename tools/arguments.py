@@ -32,8 +32,13 @@ def add_scenarios(parser: Arguments, default: str = "all bundled ones") -> None:
     parser.add_argument("scenarios", nargs="*", metavar="SCENARIO", help=about)
 
 
-def scenario_files(parser: Arguments, names: Sequence[str], settings: Sequence[str] = ()) -> list[Path]:
-    """The files of these scenarios, of all bundled ones for no names; exits when one of them cannot be flown."""
+def scenario_files(
+    parser: Arguments, names: Sequence[str], settings: Sequence[str] = ()
+) -> list[Path]:
+    """The files of these scenarios, of all bundled ones for no names.
+
+    Exits when one of them cannot be flown.
+    """
     from atlas_cueing.errors import AtlasError
     from atlas_cueing.scenario import load_scenario
 

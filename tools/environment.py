@@ -17,8 +17,9 @@ PYTHON = PROJECT / ".venv" / "bin" / "python"
 def enter(extra: str = "") -> None:
     """Go on in an interpreter that has the project and what its `extra` needs.
 
-    The running one is kept if it has all of it. Otherwise `tools/setup EXTRA` makes .venv ready, and the tool starts again
-    there. From then on Ctrl-C, or a reader that went away, ends it without a traceback.
+    The running one is kept if it has all of it. Otherwise `tools/setup EXTRA` makes .venv ready,
+    and the tool starts again there. From then on Ctrl-C, or a reader that went away, ends it
+    without a traceback.
     """
     sys.excepthook = _excepthook
     if not _lacking(extra):
@@ -36,7 +37,9 @@ def _lacking(extra: str) -> bool:
     try:
         for requirement in metadata.requires("atlas_cueing") or ():
             name, _, condition = requirement.partition(";")
-            if "extra ==" not in condition or (extra and re.search(f"extra == ['\"]{extra}['\"]", condition)):
+            if "extra ==" not in condition or (
+                extra and re.search(f"extra == ['\"]{extra}['\"]", condition)
+            ):
                 metadata.version(re.match(r"[\w.-]+", name)[0])
     except metadata.PackageNotFoundError:
         return True
@@ -45,6 +48,7 @@ def _lacking(extra: str) -> bool:
 
 def _excepthook(kind, error, trace):
     if issubclass(kind, BrokenPipeError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is flushed at the end has a place to go
+        # what is flushed at the end has a place to go
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     elif not issubclass(kind, KeyboardInterrupt):
         sys.__excepthook__(kind, error, trace)

@@ -1,8 +1,10 @@
-"""Runs without a clock: a scenario goes in, a finished log and its figures come out; one (`run`), or thousands (`batch`).
+"""Runs without a clock: a scenario goes in, a finished log and its figures come out.
 
-A batch is planned (`plan`), what is missing is flown (`fly_batch`) by processes here (`workers`) or on many machines
-(`cluster`), each run alone in a child of its worker (`worker`, `alone`), into a folder or to a URL (`results`), and ends in a
-table.
+One (`run`), or thousands (`batch`).
+
+A batch is planned (`plan`), what is missing is flown (`fly_batch`) by processes here (`workers`) or
+on many machines (`cluster`), each run alone in a child of its worker (`worker`, `alone`), into a
+folder or to a URL (`results`), and ends in a table.
 """
 
 from .cluster import on_cluster

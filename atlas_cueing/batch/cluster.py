@@ -1,14 +1,16 @@
 """Runs on many machines, by dask.distributed (extra `cluster`).
 
-On machines that trust each other and reach the same folder or URL, each with the same versions installed:
+On machines that trust each other and reach the same folder or URL, each with the same versions
+installed:
 
     export DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES=1
     dask scheduler --host HOST --port 8786 --dashboard-address HOST:8787
     dask worker tcp://HOST:8786 --host HERE --dashboard-address HERE:0 --nworkers 8 --nthreads 1    # on every machine
     atlas-cueing batch scenarios -o /shared/results --cluster tcp://HOST:8786                       # or -o s3://bucket/results
 
-Whoever reaches the scheduler or a worker can run any program there: HOST and HERE are 127.0.0.1 or of a private network.
-Without --dashboard-address both answer on all interfaces, also with --no-dashboard.
+Whoever reaches the scheduler or a worker can run any program there: HOST and HERE are 127.0.0.1 or
+of a private network. Without --dashboard-address both answer on all interfaces, also with
+--no-dashboard.
 """
 
 import threading
@@ -32,7 +34,9 @@ _own = threading.local()  # a worker process for each thread of a dask worker
 
 
 @contextmanager
-def on_cluster(address: str, jobs: int) -> Iterator[Callable[[Iterable[Job], Stop], Iterator[JobResult]]]:
+def on_cluster(
+    address: str, jobs: int
+) -> Iterator[Callable[[Iterable[Job], Stop], Iterator[JobResult]]]:
     """What flies orders on the cluster of a scheduler (`tcp://HOST:PORT`), or on `jobs` LOCAL workers; records as they come.
 
     The runs of a lost worker are begun again elsewhere; one that loses ATTEMPTS workers is given up as `worker_lost`. Once
@@ -53,7 +57,8 @@ def _fly(client: Any, todo: Iterable[Job], stop: Stop) -> Iterator[JobResult]:
         """Hand the next orders, `count` at most, to the scheduler; gives their futures."""
         batch = list(islice(orders, count))
         known.update({order.id: order for order in batch})
-        # The key makes a run that is under way for a driver that was killed be waited for instead of flown twice.
+        # The key makes a run that is under way for a driver that was killed be waited for instead
+        # of flown twice.
         return [client.submit(fly_order, order, key=order.id, retries=0) for order in batch]
 
     waiting = as_completed(submit(_UNDER_WAY))
@@ -76,7 +81,11 @@ def _record(future: Any, order: Job) -> JobResult:
     error = future.exception()
     if type(error).__name__ == "KilledWorker":
         return lost(order)
-    return JobResult(order.id, "worker_differs", f"the cluster's worker cannot fly it: {type(error).__name__}: {error}")
+    return JobResult(
+        order.id,
+        "worker_differs",
+        f"the cluster's worker cannot fly it: {type(error).__name__}: {error}",
+    )
 
 
 def fly_order(order: Job) -> JobResult:
@@ -104,7 +113,12 @@ def _client(address: str, jobs: int) -> Iterator[Any]:
     if address == LOCAL:
         with (
             dask.config.set({"distributed.scheduler.allowed-failures": ATTEMPTS - 1}),
-            LocalCluster(n_workers=jobs, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0") as local,
+            LocalCluster(
+                n_workers=jobs,
+                threads_per_worker=1,
+                host="127.0.0.1",
+                dashboard_address="127.0.0.1:0",
+            ) as local,
             Client(local) as client,
         ):
             yield client

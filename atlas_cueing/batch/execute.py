@@ -16,43 +16,72 @@ def confine(memory: float) -> None:
     """Bound this process to `memory` GB of address space, without core dumps."""
     _, hard = resource.getrlimit(resource.RLIMIT_AS)
     bound = int(memory * 1e9)
-    resource.setrlimit(resource.RLIMIT_AS, (bound if hard == resource.RLIM_INFINITY else min(bound, hard), hard))
+    resource.setrlimit(
+        resource.RLIMIT_AS, (bound if hard == resource.RLIM_INFINITY else min(bound, hard), hard)
+    )
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
 def fly_alone(order: Job, workdir: Path) -> JobResult:
-    """Fly the order, write its log into the folder `workdir`, and give the record. Raises only what ends the process."""
+    """Fly the order, write its log into the folder `workdir`, and give the record.
+
+    Raises only what ends the process.
+    """
     try:
         with TemporaryDirectory(prefix="atlas_cueing_") as folder:
             for name, content in order.files.items():
                 path = Path(folder) / name
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_bytes(content.encode("latin-1"))
-            scenario = load_scenario(Path(folder) / "scenario.toml", trust_models=order.trust_models)
+            scenario = load_scenario(
+                Path(folder) / "scenario.toml", trust_models=order.trust_models
+            )
             here = run_id(scenario)
             if here != order.id:
-                return JobResult(order.id, "worker_differs", f"this worker would fly {here}: its versions are not the driver's")
+                return JobResult(
+                    order.id,
+                    "worker_differs",
+                    f"this worker would fly {here}: its versions are not the driver's",
+                )
             result = run_scenario(scenario, workdir / f"{order.id}.mcap")
     except MemoryError:
-        return JobResult(order.id, "out_of_memory", f"needs more than {order.limits.memory:g} GB", left_by(order, workdir))
+        return JobResult(
+            order.id,
+            "out_of_memory",
+            f"needs more than {order.limits.memory:g} GB",
+            left_by(order, workdir),
+        )
     except OutputError as error:
         return JobResult(order.id, "recording_failed", str(error))
-    except InputError as error:  # the scenario was checked when it was planned, so it is the model that does not load
+    except InputError as error:
+        # the scenario was checked when it was planned, so it is the model that does not load
         return JobResult(order.id, "vehicle_failed", str(error).replace(f"{folder}/", ""))
     except OSError as error:
         return JobResult(order.id, "recording_failed", f"{type(error).__name__}: {error}")
     except Exception as error:  # noqa: BLE001 - one run's mishap is no other's
-        return JobResult(order.id, "failed", f"{type(error).__name__}: {error}", left_by(order, workdir))
+        return JobResult(
+            order.id, "failed", f"{type(error).__name__}: {error}", left_by(order, workdir)
+        )
     return _record(order, result)
 
 
 def _record(order: Job, result: RunResult) -> JobResult:
     found = result.evaluation
-    figures = (result.ticks, result.duration, result.wall, found.violations, found.metrics, found.limit_use)
+    figures = (
+        result.ticks,
+        result.duration,
+        result.wall,
+        found.violations,
+        found.metrics,
+        found.limit_use,
+    )
     return JobResult(order.id, result.result, result.reason, result.log.name, *figures)
 
 
 def left_by(order: Job, workdir: Path) -> str:
-    """Name of the log that a run left on its workdir, a .part or a complete one; empty when there is none."""
+    """Name of the log that a run left on its workdir, a .part or a complete one.
+
+    Empty when there is none.
+    """
     names = (f"{order.id}.mcap.part", f"{order.id}.mcap")
     return next((name for name in names if (workdir / name).is_file()), "")

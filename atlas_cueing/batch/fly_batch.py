@@ -10,7 +10,8 @@ from .plan import PlannedRun
 from .pool import Stop
 from .store import ResultStore
 
-Fly: TypeAlias = Callable[[Iterable[Job], Stop], Iterator[JobResult]]  # `fly_here`, or what `on_cluster` gives
+# `fly_here`, or what `on_cluster` gives
+Fly: TypeAlias = Callable[[Iterable[Job], Stop], Iterator[JobResult]]
 Tell: TypeAlias = Callable[[JobResult], None]
 
 
@@ -22,14 +23,21 @@ class Outcome:
     record: JobResult | None
 
 
-def missing(runs: Sequence[PlannedRun], results: ResultStore, *, retry: bool = False) -> list[PlannedRun]:
-    """Runs without a final record there, the longest first; with `retry` also those that had to be killed."""
+def missing(
+    runs: Sequence[PlannedRun], results: ResultStore, *, retry: bool = False
+) -> list[PlannedRun]:
+    """Runs without a final record there, the longest first.
+
+    With `retry` also those that had to be killed.
+    """
     return _todo(runs, _done(runs, results, retry))
 
 
 def _done(runs: Sequence[PlannedRun], results: ResultStore, retry: bool) -> dict[str, JobResult]:
     found = kept([run.id for run in runs], results)
-    return {name: record for name, record in found.items() if not (retry and record.result in KILLED)}
+    return {
+        name: record for name, record in found.items() if not (retry and record.result in KILLED)
+    }
 
 
 def _todo(runs: Sequence[PlannedRun], done: Mapping[str, JobResult]) -> list[PlannedRun]:
@@ -49,12 +57,15 @@ def fly_batch(
 ) -> list[Outcome]:
     """Fly what is missing in `results`, and give what came of every run, in the order of `runs`.
 
-    A log and its record are each complete or not there, so a batch that is killed loses the runs under way and nothing else.
-    `tell` is called with each record as it comes. Raises OutputError when the place cannot be used.
+    A log and its record are each complete or not there, so a batch that is killed loses the runs
+    under way and nothing else. `tell` is called with each record as it comes. Raises OutputError
+    when the place cannot be used.
     """
     with results.opened():
         records = _done(runs, results, retry)
-        for record in fly((Job.of(run, results.place, limits) for run in _todo(runs, records)), stop):
+        for record in fly(
+            (Job.of(run, results.place, limits) for run in _todo(runs, records)), stop
+        ):
             records[record.id] = record
             tell(record)
         return [Outcome(run, records.get(run.id)) for run in runs]

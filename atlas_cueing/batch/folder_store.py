@@ -19,7 +19,10 @@ _PATIENCE = 0.2  # s from one look at a run that another worker holds to the nex
 
 
 class FolderStore:
-    """`Results` in a folder, which workers elsewhere see at the same path. Runs write into it at once."""
+    """`Results` in a folder, which workers elsewhere see at the same path.
+
+    Runs write into it at once.
+    """
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -39,12 +42,18 @@ class FolderStore:
         return str(self._folder / name)
 
     def check(self) -> None:
-        """Raise OutputError when the folder cannot become, or is not, one to write to. Makes nothing."""
+        """Raise OutputError when the folder cannot become, or is not, one to write to.
+
+        Makes nothing.
+        """
         folder = self._folder
         try:
             existing = folder if folder.exists() else folder.parent
             if not existing.is_dir():
-                raise OutputError(f"folder {folder}: {existing} is {'no folder' if existing.exists() else 'missing'}")
+                raise OutputError(
+                    f"folder {folder}: {existing} is"
+                    f" {'no folder' if existing.exists() else 'missing'}"
+                )
             if not os.access(existing, os.W_OK | os.X_OK):
                 raise OutputError(f"folder {folder}: {existing} cannot be written to")
         except OSError as error:  # a name that is too long, a folder that may not be looked into
@@ -52,13 +61,19 @@ class FolderStore:
 
     @contextmanager
     def opened(self) -> Iterator[None]:
-        """Make the folder and hold it. Raises OutputError while another batch of this machine holds it."""
+        """Make the folder and hold it.
+
+        Raises OutputError while another batch of this machine holds it.
+        """
         self.check()
         with self._lock_file() as lock:
             try:
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)  # the system lets go of it however the driver ends
+                # the system lets go of it however the driver ends
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except OSError as error:
-                raise OutputError(f"folder {self._folder}: another batch is at work in it") from error
+                raise OutputError(
+                    f"folder {self._folder}: another batch is at work in it"
+                ) from error
             yield
 
     def _lock_file(self) -> TextIO:
@@ -70,7 +85,9 @@ class FolderStore:
 
     @contextmanager
     def claimed(self, run: str) -> Iterator[None]:
-        """Hold a run while entered, on all machines whose file system keeps locks; wait as long as another worker holds it.
+        """Hold a run while entered, on all machines whose file system keeps locks.
+
+        Wait as long as another worker holds it.
 
         Raises EOFError when this process's stdin ends meanwhile.
         """
@@ -115,7 +132,10 @@ class FolderStore:
 
 
 def _locked(file: TextIO, byte: int) -> bool:
-    """Lock a byte, until the file is closed or the process ends; False when another process has it."""
+    """Lock a byte, until the file is closed or the process ends.
+
+    False when another process has it.
+    """
     try:
         fcntl.lockf(file, fcntl.LOCK_EX | fcntl.LOCK_NB, 1, byte)
     except (BlockingIOError, PermissionError):  # POSIX leaves it open which of them

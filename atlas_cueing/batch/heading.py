@@ -1,4 +1,7 @@
-"""Heads and figures of the overview in words and units for people: degrees and percent, not radians and shares."""
+"""Heads and figures of the overview in words and units for people.
+
+Degrees and percent, not radians and shares.
+"""
 
 from dataclasses import dataclass
 from math import degrees, isfinite
@@ -35,11 +38,19 @@ class Heading:
 
     @classmethod
     def of_metric(cls, name: str) -> "Heading":
-        """The heading of a metric, whatever its name; wheels are left in rad, as their limits are given."""
+        """The heading of a metric, whatever its name.
+
+        Wheels are left in rad, as their limits are given.
+        """
         for ending, unit, shown, factor, decimals in _ENDINGS:
             if name.endswith(ending):
                 as_is = name.startswith("wheel_")
-                return cls(_words(name.removesuffix(ending)), unit if as_is else shown, 1.0 if as_is else factor, decimals)
+                return cls(
+                    _words(name.removesuffix(ending)),
+                    unit if as_is else shown,
+                    1.0 if as_is else factor,
+                    decimals,
+                )
         return cls(_words(name))
 
     @classmethod

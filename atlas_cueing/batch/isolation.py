@@ -30,15 +30,22 @@ class ChildExit:
 
     def how(self) -> str:
         """The end in words."""
-        how = f"ended by {signal.Signals(-self.status).name}" if self.status < 0 else f"ended with exit status {self.status}"
+        how = (
+            f"ended by {signal.Signals(-self.status).name}"
+            if self.status < 0
+            else f"ended with exit status {self.status}"
+        )
         return f"{how}{': ' if self.printed else ''}{self.printed}"
 
 
 def in_child(work: Callable[[], bytes], limit: float) -> ChildExit:
-    """Fork, and give what `work` told there; it is killed after `limit` s of wall time, and dies with this process (on Linux).
+    """Fork, and give what `work` told there.
 
-    To be called in a process without threads, which a fork would catch in mid-step; `work` may start some. Raises EOFError
-    when this process's stdin ends meanwhile: the child is killed, as nobody waits for it any more.
+    It is killed after `limit` s of wall time, and dies with this process (on Linux).
+
+    To be called in a process without threads, which a fork would catch in mid-step; `work` may
+    start some. Raises EOFError when this process's stdin ends meanwhile: the child is killed, as
+    nobody waits for it any more.
     """
     with tempfile.TemporaryFile() as printed:
         reading, writing = os.pipe()

@@ -6,7 +6,8 @@ from typing import Self
 
 from .plan import PlannedRun
 
-DEFAULT_TIME_LIMIT = 1800.0  # s of wall time for one run; the longest of the bundled ones takes a tenth of it
+# s of wall time for one run; the longest of the bundled ones takes a tenth of it
+DEFAULT_TIME_LIMIT = 1800.0
 DEFAULT_MEMORY_LIMIT = 4.0  # GB of address space for one run; an ordinary one needs half of one
 LEAST_MEMORY_LIMIT = 0.5  # GB; the interpreter with its libraries alone has 0.3
 
@@ -43,4 +44,10 @@ class Job:
     def from_line(cls, line: bytes) -> Self:
         """The order again."""
         table = json.loads(line)
-        return cls(table["id"], table["place"], table["files"], RunLimits(**table["limits"]), table["trust_models"])
+        return cls(
+            table["id"],
+            table["place"],
+            table["files"],
+            RunLimits(**table["limits"]),
+            table["trust_models"],
+        )

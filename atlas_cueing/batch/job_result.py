@@ -10,9 +10,11 @@ from typing import Any, Self
 from ..atomic_file import write_whole
 from .store import ResultStore
 
-# The run itself ended so: the same again would end the same. Anything else (a full disk, a lost worker) is flown again.
+# The run itself ended so: the same again would end the same. Anything else (a full disk, a lost
+# worker) is flown again.
 FINAL = ("ok", "vehicle_failed", "failed", "crashed", "timed_out", "out_of_memory")
-KILLED = ("crashed", "timed_out", "out_of_memory")  # a stronger machine or a longer limit may do better: `--retry`
+# a stronger machine or a longer limit may do better: `--retry`
+KILLED = ("crashed", "timed_out", "out_of_memory")
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,30 +53,47 @@ class JobResult:
         table = asdict(self)
         table["duration_s"], table["wall_s"] = table.pop("duration"), table.pop("wall")
         for name in ("metrics", "limit_use"):
-            table[name] = {key: value if isfinite(value) else None for key, value in table[name].items()}
+            table[name] = {
+                key: value if isfinite(value) else None for key, value in table[name].items()
+            }
         return table
 
     @classmethod
     def from_json(cls, table: dict[str, Any]) -> Self:
-        """The record again. Raises KeyError, TypeError, ValueError or AttributeError for anything else."""
+        """The record again.
+
+        Raises KeyError, TypeError, ValueError or AttributeError for anything else.
+        """
         given = dict(table)
         duration, wall = float(given.pop("duration_s")), float(given.pop("wall_s"))
         for name in ("metrics", "limit_use"):
-            given[name] = {key: float("nan") if value is None else float(value) for key, value in given[name].items()}
+            given[name] = {
+                key: float("nan") if value is None else float(value)
+                for key, value in given[name].items()
+            }
         given["violations"] = tuple(given["violations"])
         return cls(**given, duration=duration, wall=wall)
 
 
 def keep(record: JobResult, workdir: Path) -> None:
     """Write the record beside its log, complete or not at all."""
-    write_whole(workdir / f"{record.id}.json", json.dumps(record.to_json(), indent=1, allow_nan=False))
+    write_whole(
+        workdir / f"{record.id}.json", json.dumps(record.to_json(), indent=1, allow_nan=False)
+    )
 
 
 def kept(runs: Collection[str], results: ResultStore) -> dict[str, JobResult]:
-    """Records by id of those runs that need no flying again: whose record is there and sound, and whose log is there."""
+    """Records by id of those runs that need no flying again.
+
+    Whose record is there and sound, and whose log is there.
+    """
     there = results.names()
     read = results.read(name for name in (f"{run}.json" for run in runs) if name in there)
-    records = {run: _sound(run, read[f"{run}.json"], there.__contains__) for run in runs if f"{run}.json" in read}
+    records = {
+        run: _sound(run, read[f"{run}.json"], there.__contains__)
+        for run in runs
+        if f"{run}.json" in read
+    }
     return {run: record for run, record in records.items() if record}
 
 
@@ -90,4 +109,8 @@ def _sound(run: str, content: bytes, has: Callable[[str], bool]) -> JobResult | 
         record = JobResult.from_json(json.loads(content))
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return None
-    return record if record.id == run and record.final and (not record.log or has(record.log)) else None
+    return (
+        record
+        if record.id == run and record.final and (not record.log or has(record.log))
+        else None
+    )

@@ -39,4 +39,7 @@ head.setAttribute("aria-sort",up?"ascending":"descending");
 [...body.rows].sort((a,b)=>{const p=v(a),q=v(b);if(p===""||q==="")return(p==="")-(q==="");
 const d=isNaN(p)||isNaN(q)?p.localeCompare(q):p-q;return up?d:-d}).forEach(row=>body.append(row))}})
 """
-"""A click on a head (or Enter) sorts its table by that column, another one the other way round; the last column is of links."""
+"""A click on a head (or Enter) sorts its table by that column, another one the other way round.
+
+The last column is of links.
+"""

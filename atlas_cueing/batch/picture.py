@@ -9,7 +9,8 @@ from ..printable import html_text
 from .heading import Heading
 from .table import Row
 
-_WIDTH, _HEIGHT, _LEFT, _TOP = 640.0, 400.0, 190.0, 34.0  # px; of the plot at most, and the room for its axes
+# px; of the plot at most, and the room for its axes
+_WIDTH, _HEIGHT, _LEFT, _TOP = 640.0, 400.0, 190.0, 34.0
 _ROW = 48.0  # px; height of a row of cells at most
 _CHARACTER, _LINE = 7.0, 16.0  # px; width of one in a label, height of a label
 _DARK = 0.55  # share of the colours up to which white can be read on them
@@ -24,23 +25,34 @@ def parameters(table: Sequence[Row], settings: Sequence[str]) -> list[str]:
 
 
 def picture(table: Sequence[Row], x: str, y: str, metric: str) -> str:
-    """SVG of `metric` against columns `x` and `y`: cells for a grid (the mean where there are several runs), else dots."""
+    """SVG of `metric` against columns `x` and `y`.
+
+    Cells for a grid (the mean where there are several runs), else dots.
+    """
     points = [(row[x], row[y], row[metric]) for row in table if _known(row, x, y, metric)]
     if not points:
         return ""
     figure = Heading.of_metric(metric)
-    across, up = _Axis([a for a, _, _ in points], _WIDTH), _Axis([b for _, b, _ in points], _HEIGHT, _ROW)
+    across, up = (
+        _Axis([a for a, _, _ in points], _WIDTH),
+        _Axis([b for _, b, _ in points], _HEIGHT, _ROW),
+    )
     cells: dict[tuple[float, float], list[float]] = {}
     for a, b, value in points:
         cells.setdefault((across.place(a), up.place(b)), []).append(float(value))
     means = {at: fmean(found) for at, found in cells.items()}
     least, most = min(means.values()), max(means.values())
-    share = {at: (mean - least) / (most - least) if most > least else 0.5 for at, mean in means.items()}
+    share = {
+        at: (mean - least) / (most - least) if most > least else 0.5 for at, mean in means.items()
+    }
     marks = [_mark(across, up, at, figure.text(mean), share[at]) for at, mean in means.items()]
     title = f"{figure.line}: {figure.text(least)} (dark) to {figure.text(most)} (light)"
     bottom = _TOP + up.length
     heads = [Heading.of_key(key).line for key in (x, y)]
-    texts = [_text(_LEFT, 18, title, "start", metric), _text(_LEFT + _WIDTH / 2, bottom + 40, heads[0], tip=x)]
+    texts = [
+        _text(_LEFT, 18, title, "start", metric),
+        _text(_LEFT + _WIDTH / 2, bottom + 40, heads[0], tip=x),
+    ]
     texts += [_text(_LEFT - 6, 30, heads[1], "end", y)]
     texts += [_text(_LEFT + at, bottom + 18, label) for at, label in across.labels()]
     texts += [_text(_LEFT - 6, bottom - at + 4, label, "end") for at, label in up.labels(_LINE)]
@@ -53,9 +65,13 @@ class _Axis:
 
     def __init__(self, found: Sequence[Any], most: float, cell: float = inf) -> None:
         """At most `most` px long, each value of a few at most `cell` px."""
-        numbers = all(isinstance(value, int | float) and not isinstance(value, bool) for value in found)
+        numbers = all(
+            isinstance(value, int | float) and not isinstance(value, bool) for value in found
+        )
         distinct = {repr(value): value for value in found}
-        self._values = sorted(distinct.values()) if numbers else [distinct[text] for text in sorted(distinct)]
+        self._values = (
+            sorted(distinct.values()) if numbers else [distinct[text] for text in sorted(distinct)]
+        )
         self._order = {repr(value): i for i, value in enumerate(self._values)}
         self.discrete = not numbers or len(self._values) <= _GRID
         self.length = min(most, cell * len(self._values)) if self.discrete else most
@@ -65,15 +81,25 @@ class _Axis:
         """Middle of the value's cell, or its place between the least and the largest."""
         if self.discrete:
             return (self._order[repr(value)] + 0.5) * self.cell
-        return self.length * float(value - self._values[0]) / float(self._values[-1] - self._values[0])
+        return (
+            self.length * float(value - self._values[0]) / float(self._values[-1] - self._values[0])
+        )
 
     def labels(self, room: float | None = None) -> list[tuple[float, str]]:
-        """Places and texts, as many as have `room` px each; without it as many as their own width allows."""
-        texts = [f"{value:.4g}" if isinstance(value, float) else str(value) for value in self._values]
+        """Places and texts, as many as have `room` px each.
+
+        Without it as many as their own width allows.
+        """
+        texts = [
+            f"{value:.4g}" if isinstance(value, float) else str(value) for value in self._values
+        ]
         pairs = list(zip(self._values, texts, strict=True))
         shown = pairs if self.discrete else [pairs[0], pairs[-1]]
         needed = len(shown) * (room or _CHARACTER * (2 + max(map(len, texts))))
-        return [(self.place(value), text) for value, text in shown[:: max(ceil(needed / self.length), 1)]]
+        return [
+            (self.place(value), text)
+            for value, text in shown[:: max(ceil(needed / self.length), 1)]
+        ]
 
 
 def _known(row: Row, x: str, y: str, metric: str) -> bool:
@@ -87,10 +113,16 @@ def _mark(across: _Axis, up: _Axis, at: tuple[float, float], value: str, share: 
     x, y = _LEFT + at[0], _TOP + up.length - at[1]
     if not (across.discrete and up.discrete):
         return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="5" fill="{colour}">{tip}</circle>'
-    place = f'x="{x - across.cell / 2:.1f}" y="{y - up.cell / 2:.1f}" width="{across.cell:.1f}" height="{up.cell:.1f}"'
+    place = (
+        f'x="{x - across.cell / 2:.1f}" y="{y - up.cell / 2:.1f}" width="{across.cell:.1f}"'
+        f' height="{up.cell:.1f}"'
+    )
     room = up.cell >= _LINE and across.cell >= _CHARACTER * (2 + len(value))
     ink = "white" if share < _DARK else "black"
-    return f'<rect {place} fill="{colour}">{tip}</rect>{_text(x, y + 5, value, fill=ink) if room else ""}'
+    return (
+        f"<rect {place}"
+        f' fill="{colour}">{tip}</rect>{_text(x, y + 5, value, fill=ink) if room else ""}'
+    )
 
 
 def _colour(share: float) -> str:
@@ -99,7 +131,9 @@ def _colour(share: float) -> str:
     return "#" + "".join(f"{round(a + part * (b - a)):02x}" for a, b in zip(low, high, strict=True))
 
 
-def _text(x: float, y: float, text: str, anchor: str = "middle", tip: str = "", fill: str = "currentColor") -> str:
+def _text(
+    x: float, y: float, text: str, anchor: str = "middle", tip: str = "", fill: str = "currentColor"
+) -> str:
     told = f"<title>{html_text(tip)}</title>" if tip else ""
     place = f'x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" font-size="13" fill="{fill}"'
     return f"<text {place}>{told}{html_text(text)}</text>"

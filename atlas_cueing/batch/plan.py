@@ -49,9 +49,10 @@ def plan(
 ) -> list[PlannedRun]:
     """All runs of scenario files, sweeps and folders of them; of runs that are the same the first.
 
-    Raises InputError with the mistakes of all files at once, also when a platform cannot be driven or does not fit the step,
-    and for a user's script without `trust_models`; a file's runs are looked at up to MOST_REFUSED that are wrong. `checking` is
-    called with a file of MANY runs or more, and their number, before they are.
+    Raises InputError with the mistakes of all files at once, also when a platform cannot be driven
+    or does not fit the step, and for a user's script without `trust_models`; a file's runs are
+    looked at up to MOST_REFUSED that are wrong. `checking` is called with a file of MANY runs or
+    more, and their number, before they are.
     """
     runs: dict[str, PlannedRun] = {}
     wrong: dict[str, None] = {}  # an ordered set
@@ -73,12 +74,15 @@ def _files(paths: Iterable[Path], wrong: dict[str, None]) -> Iterator[Path]:
     """The files, and those of folders."""
     for path in paths:
         try:
-            yield from scenario_files(path) if os.path.isdir(path) else [path]  # Path.is_dir raises when a name is too long
+            # Path.is_dir raises when a name is too long
+            yield from scenario_files(path) if os.path.isdir(path) else [path]
         except ScenarioError as error:
             wrong |= dict.fromkeys(error.lines)
 
 
-def _add(runs: dict[str, PlannedRun], wrong: dict[str, None], file: Path, variants: Sequence[Variant]) -> None:
+def _add(
+    runs: dict[str, PlannedRun], wrong: dict[str, None], file: Path, variants: Sequence[Variant]
+) -> None:
     """Put the runs of a file with those of the files before, or what is wrong with them."""
     refused = 0
     for variant in variants:
@@ -92,7 +96,9 @@ def _add(runs: dict[str, PlannedRun], wrong: dict[str, None], file: Path, varian
             if refused == MOST_REFUSED:
                 break
             continue
-        runs.setdefault(name, PlannedRun(name, file, variant.scenario, variant.settings, duration, step))
+        runs.setdefault(
+            name, PlannedRun(name, file, variant.scenario, variant.settings, duration, step)
+        )
 
 
 def _check(scenario: Scenario, step: float) -> None:
@@ -103,7 +109,10 @@ def _check(scenario: Scenario, step: float) -> None:
 
 
 def _course(scenario: Scenario) -> tuple[float | None, float]:
-    """Length of the flight and its step, s, as far as the files tell: a script may end earlier, or not load at all."""
+    """Length of the flight and its step, s, as far as the files tell.
+
+    A script may end earlier, or not load at all.
+    """
     file = scenario.file
     rate = file.vehicle.rate_hz or 120.0
     if file.vehicle.script is None:
@@ -112,7 +121,9 @@ def _course(scenario: Scenario) -> tuple[float | None, float]:
     start, end, dt = _script_course(script)
     length = None if end is None else max(end - (start or 0.0), 0.0)
     known = [time for time in (length, file.duration_s) if time is not None]
-    step = dt if dt is not None and 1e-4 <= dt <= 0.1 and file.vehicle.rate_hz is None else 1.0 / rate
+    step = (
+        dt if dt is not None and 1e-4 <= dt <= 0.1 and file.vehicle.rate_hz is None else 1.0 / rate
+    )
     return min(known, default=None), step
 
 

@@ -18,8 +18,10 @@ Stop = Callable[[], bool]
 ATTEMPTS = 2  # times that a run may lose its worker before it is left
 _PATIENCE = 0.2  # s from one look at whether to stop to the next
 _GRACE = 10.0  # s for a worker to kill its run and end, once its stdin is closed
-_COMMAND = (sys.executable, "-P", "-m", f"{__package__}.worker")  # -P: nothing in the working directory is imported
-_SINGLE = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # a process that forks must not have threads
+# -P: nothing in the working directory is imported
+_COMMAND = (sys.executable, "-P", "-m", f"{__package__}.worker")
+# a process that forks must not have threads
+_SINGLE = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 
 
 class Worker:
@@ -33,7 +35,8 @@ class Worker:
             env={**os.environ, **_SINGLE},
             start_new_session=True,  # Ctrl-C is for the driver, which stops its workers
         )
-        assert self._process.stdin and self._process.stdout  # noqa: S101, PT018 - pipes, as asked for
+        # Pipes, as asked for
+        assert self._process.stdin and self._process.stdout  # noqa: S101, PT018
         self._orders, self._records = self._process.stdin, self._process.stdout
         self.order: Job | None = None
         self.losses = 0  # times that the present order lost a worker
@@ -73,14 +76,22 @@ class Worker:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
         self.close()
 
 
 def fly_here(orders: Iterable[Job], jobs: int, stop: Stop = lambda: False) -> Iterator[JobResult]:
-    """Fly the orders in `jobs` worker processes; records as they come. Once `stop` is true, runs under way are killed.
+    """Fly the orders in `jobs` worker processes; records as they come.
 
-    A run that loses its worker is begun again with a new one, and given up as `worker_lost` when that is lost, too.
+    Once `stop` is true, runs under way are killed.
+
+    A run that loses its worker is begun again with a new one, and given up as `worker_lost` when
+    that is lost, too.
     """
     crew = _Crew(orders)
     try:
@@ -155,4 +166,6 @@ class _Crew:
 
 def lost(order: Job) -> JobResult:
     """The record of a run that lost its worker too often."""
-    return JobResult(order.id, "worker_lost", f"its worker process died {ATTEMPTS} times while flying it")
+    return JobResult(
+        order.id, "worker_lost", f"its worker process died {ATTEMPTS} times while flying it"
+    )

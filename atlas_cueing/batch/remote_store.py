@@ -10,7 +10,8 @@ from typing import Any
 from ..errors import PIP, InputError, MissingExtraError, OutputError
 from .isolation import in_child
 
-UPLOAD_LIMIT = 3600.0  # s of wall time for what one run leaves (assumed); a GB takes an hour at 2.3 Mbit/s
+# s of wall time for what one run leaves (assumed); a GB takes an hour at 2.3 Mbit/s
+UPLOAD_LIMIT = 3600.0
 _PROBE = ".atlas_cueing"  # written and removed again before anything flies
 _TOKEN = 4  # bytes; what is being uploaded is told apart by them
 _MAGIC = "*?[]"  # drivers would look for other files with them
@@ -20,10 +21,14 @@ _OF_ONE_PROCESS = "memory"
 
 
 class RemoteStore:
-    """`Results` at a URL. Runs write on the machine where they fly; what is finished is uploaded by another name, then moved.
+    """`Results` at a URL.
 
-    Two batches at work in one place do not see each other: they would fly some runs twice and do no other harm. fsspec is
-    imported when something is first asked of the place, as drivers start threads and a worker must not have any.
+    Runs write on the machine where they fly; what is finished is uploaded by another name, then
+    moved.
+
+    Two batches at work in one place do not see each other: they would fly some runs twice and do no
+    other harm. fsspec is imported when something is first asked of the place, as drivers start
+    threads and a worker must not have any.
     """
 
     def __init__(self, url: str) -> None:
@@ -49,9 +54,15 @@ class RemoteStore:
         return f"{kind}://{host.rsplit('@', 1)[-1]}{slash}{path}{'/' if name else ''}{name}"
 
     def check(self) -> None:
-        """Raise InputError when fsspec, its driver or the host is missing, or a file is in the way. Makes nothing."""
+        """Raise InputError when fsspec, its driver or the host is missing, or a file is in the way.
+
+        Makes nothing.
+        """
         if _OF_ONE_PROCESS in self._fs.protocol:
-            raise InputError(f"-o {self.where()}: no other process sees it, and every run is in one; write to a folder")
+            raise InputError(
+                f"-o {self.where()}: no other process sees it, and every run is in one; write to a"
+                " folder"
+            )
         with self._telling():
             try:
                 found = self._fs.info(self._root)
@@ -62,7 +73,10 @@ class RemoteStore:
 
     @contextmanager
     def opened(self) -> Iterator[None]:
-        """Make the folder and prove that a file can be written, moved and removed there. Nobody else is kept out."""
+        """Make the folder and prove that a file can be written, moved and removed there.
+
+        Nobody else is kept out.
+        """
         with self._telling():
             if not self._fs.exists(self._root):
                 self._fs.mkdir(self._root, create_parents=False)
@@ -91,7 +105,10 @@ class RemoteStore:
                 return set()
 
     def read(self, names: Iterable[str]) -> dict[str, bytes]:
-        """Contents of files by name, fetched side by side where the driver can; one that is not there is left out."""
+        """Contents of files by name, fetched side by side where the driver can.
+
+        One that is not there is left out.
+        """
         wanted = [self._at(name) for name in names]
         if not wanted:
             return {}
@@ -100,7 +117,11 @@ class RemoteStore:
             for found in got.values():
                 if isinstance(found, Exception) and not isinstance(found, FileNotFoundError):
                     raise found
-        return {path.rsplit("/", 1)[-1]: found for path, found in got.items() if isinstance(found, bytes)}
+        return {
+            path.rsplit("/", 1)[-1]: found
+            for path, found in got.items()
+            if isinstance(found, bytes)
+        }
 
     def write(self, name: str, content: bytes) -> None:
         """Write a file under another name, then move it; what was there goes first."""
@@ -112,7 +133,10 @@ class RemoteStore:
         return scratch
 
     def deliver(self, workdir: Path, names: Iterable[str]) -> None:
-        """Upload files from the workdir, by a child that may hang and may have threads. Raises EOFError as `in_child` does."""
+        """Upload files from the workdir, by a child that may hang and may have threads.
+
+        Raises EOFError as `in_child` does.
+        """
         ended = in_child(lambda: self._upload(workdir, names), UPLOAD_LIMIT)
         if ended.late:
             raise OutputError(f"{self.where()}: upload not over after {UPLOAD_LIMIT:g} s")
@@ -140,7 +164,8 @@ class RemoteStore:
     @contextmanager
     def _moved(self, name: str) -> Iterator[str]:
         """A name to write to; what is there in the end is moved to `name`, and what was written in vain is removed."""
-        part = self._at(f"{name}.{secrets.token_hex(_TOKEN)}.upload")  # so that nobody else writes into the same file
+        # so that nobody else writes into the same file
+        part = self._at(f"{name}.{secrets.token_hex(_TOKEN)}.upload")
         try:
             yield part
             if self._fs.exists(self._at(name)):  # not every driver moves over what is there
@@ -182,7 +207,9 @@ class RemoteStore:
         try:
             fs, root = url_to_fs(self._url)
         except ImportError as error:
-            raise InputError(f"-o {self.where()}: its driver is missing: {error} ({PIP} install ...)") from error
+            raise InputError(
+                f"-o {self.where()}: its driver is missing: {error} ({PIP} install ...)"
+            ) from error
         except Exception as error:  # a kind of URL that nobody knows, a host that does not answer
             raise InputError(f"-o {self.where()}: {error}") from error
         return fs, root

@@ -8,15 +8,21 @@ from ..scenario import Scenario
 
 PACKAGES = ("atlas_cueing", "jsbsim", "ruckig")  # whose versions a log depends on
 
-_DIGITS = 12  # of the hash: 2^48, so that among a million runs two are mixed up with probability 0.002
+# of the hash: 2^48, so that among a million runs two are mixed up with probability 0.002
+_DIGITS = 12
 _LONGEST_NAME = 60  # bytes of each readable part; file names end at 255
 
 
 def run_id(scenario: Scenario) -> str:
-    """Name and hash of a run, fit for a file name: a function of the resolved scenario, platform, script and versions."""
+    """Name and hash of a run, fit for a file name.
+
+    A function of the resolved scenario, platform, script and versions.
+    """
     table = scenario.file.vehicle
     flown = (table.script or table.aircraft or table.source).rsplit("/", 1)[-1].removesuffix(".xml")
-    readable = f"{_cut(scenario.name)}-{_plain(flown)[:_LONGEST_NAME]}-{scenario.file.cueing.method}"
+    readable = (
+        f"{_cut(scenario.name)}-{_plain(flown)[:_LONGEST_NAME]}-{scenario.file.cueing.method}"
+    )
     return f"{readable}-{digest(scenario.attachments())[:_DIGITS]}"
 
 
@@ -27,7 +33,9 @@ def _cut(name: str) -> str:
 def digest(files: dict[str, bytes]) -> str:
     """Hash (hex) of files by name and of the versions here."""
     total = sha256()
-    for name, content in sorted((files | {f"version/{name}": _version(name) for name in PACKAGES}).items()):
+    for name, content in sorted(
+        (files | {f"version/{name}": _version(name) for name in PACKAGES}).items()
+    ):
         total.update(f"{name}\0{len(content)}\0".encode())
         total.update(content)
     return total.hexdigest()

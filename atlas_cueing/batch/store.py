@@ -16,8 +16,8 @@ SUMMARY, INDEX = "summary.csv", "index.html"  # the table and the page of all ru
 class ResultStore(Protocol):
     """Files by name, each complete or not there at all.
 
-    A run writes into a `workdir` on the machine where it flies, and what it leaves there is delivered. Everything but `workdir`
-    raises OSError or OutputError when the place fails.
+    A run writes into a `workdir` on the machine where it flies, and what it leaves there is
+    delivered. Everything but `workdir` raises OSError or OutputError when the place fails.
     """
 
     @property
@@ -39,11 +39,17 @@ class ResultStore(Protocol):
         ...
 
     def opened(self) -> AbstractContextManager[None]:
-        """Make the place and hold it while entered. Raises OutputError when it cannot be written to."""
+        """Make the place and hold it while entered.
+
+        Raises OutputError when it cannot be written to.
+        """
         ...
 
     def claimed(self, run: str) -> AbstractContextManager[None]:
-        """Keep other workers from a run while entered, where there are locks. Raises EOFError as `in_child` does."""
+        """Keep other workers from a run while entered, where there are locks.
+
+        Raises EOFError as `in_child` does.
+        """
         ...
 
     def has(self, name: str) -> bool:
@@ -71,7 +77,10 @@ class ResultStore(Protocol):
         ...
 
     def fetch(self, name: str, scratch: Path) -> Path:
-        """A file of this machine with the content of `name`; in `scratch` unless there is one already."""
+        """A file of this machine with the content of `name`.
+
+        In `scratch` unless there is one already.
+        """
         ...
 
 

@@ -56,14 +56,22 @@ def _row(outcome: Outcome) -> dict[str, Any]:
     }
     if record is None:
         return {**what, "result": NOT_FLOWN}
-    came = {"result": record.result, "reason": record.reason, "log": record.log, "wall_s": record.wall}
+    came = {
+        "result": record.result,
+        "reason": record.reason,
+        "log": record.log,
+        "wall_s": record.wall,
+    }
     figures = {**record.metrics, "ticks": record.ticks, "duration_s": record.duration}
     use = {f"limit_use_{name}": value for name, value in record.limit_use.items()}
     return {**what, **came, "violations": len(record.violations), **figures, **use}
 
 
 def ordered(table: Sequence[Row], metric: str) -> list[Row]:
-    """Rows by a metric, the smallest first; then those that failed, whose figures are of a part of the flight, likewise."""
+    """Rows by a metric, the smallest first.
+
+    Then those that failed, whose figures are of a part of the flight, likewise.
+    """
     return sorted(table, key=lambda row: (row["result"] != "ok", _rank(row.get(metric))))
 
 

@@ -38,15 +38,20 @@ def main() -> None:
 
 
 def isolated(order: Job) -> JobResult:
-    """Fly the order in a child, and deliver its log and record; one that died gets a record that says how.
+    """Fly the order in a child, and deliver its log and record.
 
-    A run that was done meanwhile is not flown again: a cluster may order it twice when it loses a worker or the driver.
-    Raises EOFError when stdin ends meanwhile.
+    One that died gets a record that says how.
+
+    A run that was done meanwhile is not flown again: a cluster may order it twice when it loses a
+    worker or the driver. Raises EOFError when stdin ends meanwhile.
     """
     results = open_store(order.place)
     try:
         # What a killed child leaves in `scratch` goes with it.
-        with results.claimed(order.id), tempfile.TemporaryDirectory(prefix="atlas_cueing_") as scratch:
+        with (
+            results.claimed(order.id),
+            tempfile.TemporaryDirectory(prefix="atlas_cueing_") as scratch,
+        ):
             return _flown(order, results, Path(scratch))
     except (OSError, OutputError) as error:
         return JobResult(order.id, "recording_failed", f"{order.id}: {error}")
@@ -69,7 +74,10 @@ def _flown(order: Job, results: ResultStore, scratch: Path) -> JobResult:
         record = JobResult.from_json(told)
     else:
         result, reason = _cause(order, ended)
-        new, record = True, JobResult(order.id, result, reason, left_by(order, workdir), wall=monotonic() - begun)
+        new, record = (
+            True,
+            JobResult(order.id, result, reason, left_by(order, workdir), wall=monotonic() - begun),
+        )
     if new and record.final:
         _deliver(record, workdir, results)
     return record
@@ -80,14 +88,18 @@ def _cause(order: Job, ended: ChildExit) -> tuple[str, str]:
     if ended.late:
         return "timed_out", f"not over after {order.limits.time:g} s"
     if "bad_alloc" in ended.printed or "MemoryError" in ended.printed:
-        return "out_of_memory", f"needs more than {order.limits.memory:g} GB: {ended.how().split(':')[0]}"
+        return (
+            "out_of_memory",
+            f"needs more than {order.limits.memory:g} GB: {ended.how().split(':')[0]}",
+        )
     return "crashed", ended.how()
 
 
 def _deliver(record: JobResult, workdir: Path, results: ResultStore) -> None:
     """Log and record to where they belong. Raises OSError or OutputError."""
     keep(record, workdir)
-    results.deliver(workdir, [name for name in (record.log, f"{record.id}.json") if name])  # the record says that all is there
+    # the record says that all is there
+    results.deliver(workdir, [name for name in (record.log, f"{record.id}.json") if name])
 
 
 if __name__ == "__main__":

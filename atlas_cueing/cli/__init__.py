@@ -1,7 +1,8 @@
 """The command `atlas-cueing`.
 
-Exit status: 0 done and clean; 1 the run or the platform has a finding, and whatever was recorded is kept; 2 bad input or
-usage, and nothing was written. Results go to stdout, everything else to stderr.
+Exit status: 0 done and clean; 1 the run or the platform has a finding, and whatever was recorded is
+kept; 2 bad input or usage, and nothing was written. Results go to stdout, everything else to
+stderr.
 """
 
 import errno
@@ -36,10 +37,14 @@ from .run import EPILOG as RUN_EPILOG
 from .run import run_command
 from .streams import safe_streams
 
-_OF_THE_SYSTEM = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EMFILE, errno.ENFILE)  # as in a full /tmp
+# as in a full /tmp
+_OF_THE_SYSTEM = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EMFILE, errno.ENFILE)
 
 app = typer.Typer(
-    help="Washout-free motion cueing: a flight becomes wheel velocity profiles of a sphere that turns without bound.",
+    help=(
+        "Washout-free motion cueing: a flight becomes wheel velocity profiles of a sphere that"
+        " turns without bound."
+    ),
     epilog="Example: atlas-cueing run scenarios/c172_elevator_doublet.toml",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
@@ -82,15 +87,26 @@ def _build() -> str:
 def _options(
     _version: Annotated[
         bool,
-        typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version, and whether it is compiled."),
+        typer.Option(
+            "--version",
+            callback=_show_version,
+            is_eager=True,
+            help="Show the version, and whether it is compiled.",
+        ),
     ] = False,
     debug: Annotated[
-        bool, typer.Option("--debug", help="Show JSBSim's own messages, and where in the program an unexpected error arose.")
+        bool,
+        typer.Option(
+            "--debug",
+            help="Show JSBSim's own messages, and where in the program an unexpected error arose.",
+        ),
     ] = False,
 ) -> None:
     """Options before the command."""
     if debug:
-        logging.basicConfig(level=logging.DEBUG, stream=sys.stderr, format="%(levelname)s %(name)s: %(message)s")
+        logging.basicConfig(
+            level=logging.DEBUG, stream=sys.stderr, format="%(levelname)s %(name)s: %(message)s"
+        )
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -112,23 +128,30 @@ def _status(texts: list[str]) -> int:
     except OSError as error:
         if error.errno not in _OF_THE_SYSTEM:
             return _unexpected(error, "--debug" in texts)
-        return _fail([f"{error.filename}: {error.strerror}" if error.filename else str(error.strerror)], 1)
-    except Exception as error:  # noqa: BLE001 - a user must never see a traceback that was not asked for
+        return _fail(
+            [f"{error.filename}: {error.strerror}" if error.filename else str(error.strerror)], 1
+        )
+    except Exception as error:  # noqa: BLE001
+        # A user must never see a traceback that was not asked for
         return _unexpected(error, "--debug" in texts)
     return 0
 
 
 def _spare() -> None:
     """What a start need not cost."""
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # matrices of three columns gain nothing from a thread for each core
-    gc.set_threshold(50_000, *gc.get_threshold()[1:])  # a collection amid the imports takes 35 ms and finds nothing
+    # matrices of three columns gain nothing from a thread for each core
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    # a collection amid the imports takes 35 ms and finds nothing
+    gc.set_threshold(50_000, *gc.get_threshold()[1:])
 
 
 def _unexpected(error: Exception, debug: bool) -> int:
     if debug:
         traceback.print_exception(error)
     hint = "" if debug else "; with 'atlas-cueing --debug ...' it shows where"
-    return _fail([f"unexpected {type(error).__name__}: {error}. This is a bug, please report it{hint}"], 1)
+    return _fail(
+        [f"unexpected {type(error).__name__}: {error}. This is a bug, please report it{hint}"], 1
+    )
 
 
 def _fail(lines: Iterable[str], status: int) -> int:

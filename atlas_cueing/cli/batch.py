@@ -59,40 +59,79 @@ A file with a [sweep] table stands for many runs:
   cueing.align_rate_deg_s = { low = 0.5, high = 10.0 }
 """
 
-SHOWN_METRICS = ("direction_rms_rad", "force_rms_m_s2", "rate_rms_rad_s", "wheels_limited_share", "stage_limited_share")
+SHOWN_METRICS = (
+    "direction_rms_rad",
+    "force_rms_m_s2",
+    "rate_rms_rad_s",
+    "wheels_limited_share",
+    "stage_limited_share",
+)
 _SHOWN_NAMES = 5  # metrics that a wrong --sort is answered with
 _SHOWN_FINDINGS = 20  # lines on stderr; the table has all
 
 
 def batch_command(
-    paths: Annotated[list[Path], typer.Argument(help="Scenario files, sweeps, and folders of them.", metavar="PATH...")],
+    paths: Annotated[
+        list[Path],
+        typer.Argument(help="Scenario files, sweeps, and folders of them.", metavar="PATH..."),
+    ],
     output: Annotated[
         str,
-        typer.Option("-o", "--output", metavar="FOLDER|URL", help="Where logs, records and table go; URL: file://, s3://..."),
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FOLDER|URL",
+            help="Where logs, records and table go; URL: file://, s3://...",
+        ),
     ],
-    jobs: Annotated[int | None, typer.Option(min=1, max=1024, help="Runs at a time; by default one for each core.")] = None,
+    jobs: Annotated[
+        int | None,
+        typer.Option(min=1, max=1024, help="Runs at a time; by default one for each core."),
+    ] = None,
     cluster: Annotated[
-        str | None, typer.Option(metavar="tcp://HOST:PORT", help="Fly on a dask cluster; 'local' starts one here.")
+        str | None,
+        typer.Option(
+            metavar="tcp://HOST:PORT", help="Fly on a dask cluster; 'local' starts one here."
+        ),
     ] = None,
     settings: Annotated[
-        list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Set any key in all scenarios; repeatable.")
+        list[str] | None,
+        typer.Option(
+            "--set", metavar="KEY=VALUE", help="Set any key in all scenarios; repeatable."
+        ),
     ] = None,
-    sort: Annotated[str, typer.Option(metavar="METRIC", help="What the table is sorted by.")] = SHOWN_METRICS[0],
+    sort: Annotated[
+        str, typer.Option(metavar="METRIC", help="What the table is sorted by.")
+    ] = SHOWN_METRICS[0],
     top: Annotated[int, typer.Option(min=0, help="Rows of the table that are printed.")] = 20,
-    time_limit: Annotated[float, typer.Option("--time-limit", min=0.1, help="Wall time for one run, s.")] = 1800.0,
-    memory_limit: Annotated[float, typer.Option("--memory-limit", min=0.5, help="Address space for one run, GB.")] = 4.0,
-    retry: Annotated[bool, typer.Option("--retry", help="Fly again what crashed or went over a limit.")] = False,
-    pages: Annotated[
-        bool, typer.Option("--pages", help="Write the review of each run for a browser; MBs and seconds each.")
+    time_limit: Annotated[
+        float, typer.Option("--time-limit", min=0.1, help="Wall time for one run, s.")
+    ] = 1800.0,
+    memory_limit: Annotated[
+        float, typer.Option("--memory-limit", min=0.5, help="Address space for one run, GB.")
+    ] = 4.0,
+    retry: Annotated[
+        bool, typer.Option("--retry", help="Fly again what crashed or went over a limit.")
     ] = False,
-    dry_run: Annotated[bool, typer.Option("--dry-run", help="Check everything, show the plan, fly nothing.")] = False,
+    pages: Annotated[
+        bool,
+        typer.Option(
+            "--pages", help="Write the review of each run for a browser; MBs and seconds each."
+        ),
+    ] = False,
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", help="Check everything, show the plan, fly nothing.")
+    ] = False,
     trust_models: Annotated[bool, typer.Option("--trust-models", help=TRUST_MODELS)] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON object and nothing else.")
+    ] = False,
 ) -> None:
     """Fly many scenarios, each alone in its process, and put all figures into one table.
 
-    The folder gets RUN.mcap and RUN.json for each run, summary.csv and index.html. Exit status 0: all flown, every limit kept.
-    1: a run has a finding, or the batch was stopped. 2: bad input, nothing was written.
+    The folder gets RUN.mcap and RUN.json for each run, summary.csv and index.html. Exit status 0:
+    all flown, every limit kept. 1: a run has a finding, or the batch was stopped. 2: bad input,
+    nothing was written.
     """
     from ..batch import RunLimits, check_results, fly_batch, missing, open_store, plan
     from ..run import StopRequest
@@ -107,13 +146,21 @@ def batch_command(
     say(_plan_text(runs, todo))
     if dry_run:
         return
-    with _flyer(cluster, jobs or len(os.sched_getaffinity(0))) as fly, StopRequest() as stop, batch_progress(todo) as tell:
+    with (
+        _flyer(cluster, jobs or len(os.sched_getaffinity(0))) as fly,
+        StopRequest() as stop,
+        batch_progress(todo) as tell,
+    ):
         limits = RunLimits(time_limit, memory_limit)
-        outcomes = fly_batch(runs, results, fly, limits, retry=retry, tell=tell, stop=lambda: stop.requested)
+        outcomes = fly_batch(
+            runs, results, fly, limits, retry=retry, tell=tell, stop=lambda: stop.requested
+        )
     if pages and not stop.requested:
         _write_pages(outcomes, results)
     table = _write(outcomes, results, sort)
-    typer.echo(_json(table, results) if as_json else _text(table, _settings(outcomes), sort, top, results))
+    typer.echo(
+        _json(table, results) if as_json else _text(table, _settings(outcomes), sort, top, results)
+    )
     _end(outcomes, stopped=stop.requested)
 
 
@@ -137,10 +184,15 @@ def _plan_text(runs: "Sequence[PlannedRun]", todo: "Sequence[PlannedRun]") -> st
     known = sum(run.duration or 0.0 for run in todo)
     unknown = sum(run.duration is None for run in todo)
     more = f", and {unknown} of unknown length" if unknown else ""
-    return f"{_runs(len(runs))}, {len(runs) - len(todo)} of them done already; to fly: {spoken(known)} of flight at most{more}"
+    return (
+        f"{_runs(len(runs))}, {len(runs) - len(todo)} of them done already; to fly: {spoken(known)}"
+        f" of flight at most{more}"
+    )
 
 
-def _write(outcomes: "Sequence[Outcome]", results: "ResultStore", sort: str) -> list[Mapping[str, Any]]:
+def _write(
+    outcomes: "Sequence[Outcome]", results: "ResultStore", sort: str
+) -> list[Mapping[str, Any]]:
     """Table and overview, also of a batch that was stopped; gives the table."""
     from ..batch import csv_of, ordered, overview, rows
     from ..batch.store import INDEX, SUMMARY
@@ -187,13 +239,21 @@ def _check_metric(name: str) -> None:
 
 
 def _meant(word: str, names: Sequence[str]) -> str:
-    """Names that begin with the word, then those that contain it; only without any the nearest in its letters."""
+    """Names that begin with the word, then those that contain it.
+
+    Only without any the nearest in its letters.
+    """
     from ..scenario.mistakes import nearest
 
     part = re.sub(r"[\s-]+", "_", word.strip().lower())
-    found = sorted((name for name in names if part and part in name), key=lambda name: not name.startswith(part))
+    found = sorted(
+        (name for name in names if part and part in name),
+        key=lambda name: not name.startswith(part),
+    )
     more = f" and {len(found) - _SHOWN_NAMES} more" if len(found) > _SHOWN_NAMES else ""
-    return f"did you mean {', '.join(found[:_SHOWN_NAMES])}{more}?" if found else nearest(word, names)
+    return (
+        f"did you mean {', '.join(found[:_SHOWN_NAMES])}{more}?" if found else nearest(word, names)
+    )
 
 
 def _runs(count: int) -> str:
@@ -208,10 +268,18 @@ def _json(table: Sequence[Mapping[str, Any]], results: "ResultStore") -> str:
     from .text import one_json
 
     counts = Counter(row["result"] for row in table)
-    return one_json({"folder": results.where(), "runs": len(table), "results": dict(counts), "table": table})
+    return one_json(
+        {"folder": results.where(), "runs": len(table), "results": dict(counts), "table": table}
+    )
 
 
-def _text(table: Sequence[Mapping[str, Any]], settings: Sequence[str], sort: str, top: int, results: "ResultStore") -> str:
+def _text(
+    table: Sequence[Mapping[str, Any]],
+    settings: Sequence[str],
+    sort: str,
+    top: int,
+    results: "ResultStore",
+) -> str:
     """The first rows, counts, and where everything is."""
     from ..review.figures import Figure
     from .text import aligned
@@ -219,9 +287,19 @@ def _text(table: Sequence[Mapping[str, Any]], settings: Sequence[str], sort: str
     swept = [key for key in settings if len({repr(row.get(key)) for row in table}) > 1]
     names = [sort, *(name for name in SHOWN_METRICS if name != sort)][:4]
     figures = {name: Figure.of(name) for name in names}
-    heads = ["run", "result", *map(printable, swept), *(figure.title for figure in figures.values())]
+    heads = [
+        "run",
+        "result",
+        *map(printable, swept),
+        *(figure.title for figure in figures.values()),
+    ]
     cells = [
-        [row["run"], row["result"], *(_short(row.get(key)) for key in swept), *(f.text(row.get(n)) for n, f in figures.items())]
+        [
+            row["run"],
+            row["result"],
+            *(_short(row.get(key)) for key in swept),
+            *(f.text(row.get(n)) for n, f in figures.items()),
+        ]
         for row in table[:top]
     ]
     widths = [max(map(len, column)) for column in zip(heads, *cells, strict=True)]
@@ -241,12 +319,19 @@ def _text(table: Sequence[Mapping[str, Any]], settings: Sequence[str], sort: str
 def _cells(line: Sequence[str], widths: Sequence[int]) -> list[str]:
     """Run and result to the left, numbers to the right."""
     return [
-        f"{text:<{width}}" if i < 2 else f"{text:>{width}}" for i, (text, width) in enumerate(zip(line, widths, strict=True))
+        f"{text:<{width}}" if i < 2 else f"{text:>{width}}"
+        for i, (text, width) in enumerate(zip(line, widths, strict=True))
     ]
 
 
 def _short(value: Any) -> str:
-    return f"{value:.5g}" if isinstance(value, float) else "-" if value is None else printable(str(value))
+    return (
+        f"{value:.5g}"
+        if isinstance(value, float)
+        else "-"
+        if value is None
+        else printable(str(value))
+    )
 
 
 def _end(outcomes: "Sequence[Outcome]", *, stopped: bool) -> None:

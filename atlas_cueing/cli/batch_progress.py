@@ -24,7 +24,8 @@ class Count:
         self._flown = 0.0
         self._ticks = {run.id: run.duration / run.step if run.duration else 0.0 for run in runs}
         self._left = sum(self._ticks.values())
-        self._worked = 0  # ticks that were flown: many a run ends, or fails, long before its planned end
+        # ticks that were flown: many a run ends, or fails, long before its planned end
+        self._worked = 0
         self._begun = perf_counter()
 
     def add(self, record: "JobResult") -> None:
@@ -44,7 +45,10 @@ class Count:
         """All of it in a line."""
         speed = self._flown / max(self.wall, 1e-9)
         runs = "1 run" if self.total == 1 else f"{self.total} runs"
-        return f"{self.done} of {runs} done, {self.failed} failed, {speed:.0f} flight s a second{self._rest()}"
+        return (
+            f"{self.done} of {runs} done, {self.failed} failed, {speed:.0f} flight s a"
+            f" second{self._rest()}"
+        )
 
     def _rest(self) -> str:
         if self._worked == 0 or self.done == self.total:

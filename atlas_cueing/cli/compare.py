@@ -23,19 +23,30 @@ _LONGEST_NAME = 16  # characters of a column's head
 
 
 def compare_command(
-    logs: Annotated[list[Path], typer.Argument(help="Two or more logs (MCAP) of one flight.", metavar="LOG")],
+    logs: Annotated[
+        list[Path], typer.Argument(help="Two or more logs (MCAP) of one flight.", metavar="LOG")
+    ],
     html: Annotated[
-        Path | None, typer.Option("--html", metavar="FILE", help="Write overlaid plots into one file for a browser.")
+        Path | None,
+        typer.Option(
+            "--html", metavar="FILE", help="Write overlaid plots into one file for a browser."
+        ),
     ] = None,
     different_flights: Annotated[
-        bool, typer.Option("--different-flights", help="Compare although the vehicle did not fly the same in all.")
+        bool,
+        typer.Option(
+            "--different-flights", help="Compare although the vehicle did not fly the same in all."
+        ),
     ] = False,
     as_json: AsJson = False,
-    force: Annotated[bool, typer.Option("--force", help="Replace the page of an earlier comparison.")] = False,
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace the page of an earlier comparison.")
+    ] = False,
 ) -> None:
     """Put several logs of one flight side by side.
 
-    Exit status 0: all are clean. 1: one has a finding or cannot be read. 2: bad usage, or logs of different flights.
+    Exit status 0: all are clean. 1: one has a finding or cannot be read. 2: bad usage, or logs of
+        different flights.
     """
     from ..review import compare_logs as compared
     from .open_page import check_pages
@@ -61,10 +72,17 @@ def comparison_table(comparison: "Comparison") -> str:
     from ..review.figures import Figure
 
     names = map(printable, comparison.names)
-    heads = [name if len(name) <= _LONGEST_NAME else f"{name[: _LONGEST_NAME - 2]}.." for name in names]
+    heads = [
+        name if len(name) <= _LONGEST_NAME else f"{name[: _LONGEST_NAME - 2]}.." for name in names
+    ]
     rows = [("", heads), ("verdict", [each.verdict for each in comparison.reviews])]
     for name in comparison.metric_names():
         figure = Figure.of(name)
-        rows.append((figure.title, [figure.text(each.metrics.get(name)) for each in comparison.reviews]))
+        rows.append(
+            (figure.title, [figure.text(each.metrics.get(name)) for each in comparison.reviews])
+        )
     width = max(len(shown) for shown, _ in rows)
-    return "\n".join(f"{shown:<{width}}" + "".join(f"  {cell:>{_LONGEST_NAME}}" for cell in cells) for shown, cells in rows)
+    return "\n".join(
+        f"{shown:<{width}}" + "".join(f"  {cell:>{_LONGEST_NAME}}" for cell in cells)
+        for shown, cells in rows
+    )

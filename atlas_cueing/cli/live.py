@@ -26,22 +26,43 @@ emergency stop and the monitoring of speed and position belong to hardware.
 """
 
 
-Rate: TypeAlias = Annotated[float, typer.Option("--rate", help="Ticks a second, 100 to 1000.", metavar="HZ")]
+Rate: TypeAlias = Annotated[
+    float, typer.Option("--rate", help="Ticks a second, 100 to 1000.", metavar="HZ")
+]
 Duration: TypeAlias = Annotated[
     float | None,
-    typer.Option("--duration", help="Park after so many seconds; by default when the flight is over.", metavar="S", min=0.0),
+    typer.Option(
+        "--duration",
+        help="Park after so many seconds; by default when the flight is over.",
+        metavar="S",
+        min=0.0,
+    ),
 ]
-View: TypeAlias = Annotated[bool, typer.Option("--view", help="Serve a 3D view with buttons on the loopback (extra: live).")]
+View: TypeAlias = Annotated[
+    bool, typer.Option("--view", help="Serve a 3D view with buttons on the loopback (extra: live).")
+]
 Port: TypeAlias = Annotated[
-    int, typer.Option("--port", help="Port of the view; 0 for any free one.", metavar="PORT", min=0, max=65535)
+    int,
+    typer.Option(
+        "--port", help="Port of the view; 0 for any free one.", metavar="PORT", min=0, max=65535
+    ),
 ]
-Wait: TypeAlias = Annotated[bool, typer.Option("--wait", help="Stay parked until 'engage' is pressed in the view.")]
+Wait: TypeAlias = Annotated[
+    bool, typer.Option("--wait", help="Stay parked until 'engage' is pressed in the view.")
+]
 SetPoints: TypeAlias = Annotated[
-    str | None, typer.Option("--setpoints", help="Send set points to a drive controller by UDP.", metavar="HOST:PORT")
+    str | None,
+    typer.Option(
+        "--setpoints", help="Send set points to a drive controller by UDP.", metavar="HOST:PORT"
+    ),
 ]
 KeyFile: TypeAlias = Annotated[
     Path | None,
-    typer.Option("--key", help="File with a shared key for set points; needed beyond the loopback.", metavar="FILE"),
+    typer.Option(
+        "--key",
+        help="File with a shared key for set points; needed beyond the loopback.",
+        metavar="FILE",
+    ),
 ]
 Foxglove: TypeAlias = Annotated[
     int | None,
@@ -54,7 +75,11 @@ Foxglove: TypeAlias = Annotated[
     ),
 ]
 Priority: TypeAlias = Annotated[
-    bool, typer.Option("--priority", help="Ask for real-time priority, locked memory and a core; tell what is refused.")
+    bool,
+    typer.Option(
+        "--priority",
+        help="Ask for real-time priority, locked memory and a core; tell what is refused.",
+    ),
 ]
 
 
@@ -77,11 +102,12 @@ def live_command(
 ) -> None:
     """Fly a scenario in real time: set points to the drives, a log, a view.
 
-    It engages by itself after a second of good input, blends to the cue, and parks when the flight is over. With --view it can
-    be held, parked and engaged by buttons, and a fault waits for a reset; without, a fault ends the run.
+    It engages by itself after a second of good input, blends to the cue, and parks when the flight
+    is over. With --view it can be held, parked and engaged by buttons, and a fault waits for a
+    reset; without, a fault ends the run.
 
-    Exit status 0: flown and parked, every limit kept. 1: a fault, or the vehicle or its input failed; the log is complete. 2:
-    bad input, nothing was written.
+    Exit status 0: flown and parked, every limit kept. 1: a fault, or the vehicle or its input
+    failed; the log is complete. 2: bad input, nothing was written.
     """
     from ..live.session import LiveOptions, LiveSession
     from ..live.stop_signals import ending
@@ -98,10 +124,15 @@ def live_command(
     asked = output or Path(f"{loaded.name}.mcap")
     log = check_output(asked, inputs=read, force=force, fresh=True)
     until = _duration(duration, loaded)
-    options = LiveOptions(rate, until, attended=view, engage=not wait, priority=priority, announce=not as_json)
+    options = LiveOptions(
+        rate, until, attended=view, engage=not wait, priority=priority, announce=not as_json
+    )
     session = LiveSession(loaded, log, options)
     with ending() as signals:
-        with followers(session, loaded, port if view else None, foxglove), drives(setpoints, key) as sender:
+        with (
+            followers(session, loaded, port if view else None, foxglove),
+            drives(setpoints, key) as sender,
+        ):
             result = session.run(sender, signals.asked)
         typer.echo(one_json(result.to_json()) if as_json else live_summary(result))
     end(result)

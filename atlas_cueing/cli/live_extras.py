@@ -20,21 +20,30 @@ _LARGEST_KEY = 4096  # bytes of its file; keys have 32 at most
 
 
 @contextmanager
-def followers(session: "LiveSession", scenario: "Scenario", view_port: int | None, foxglove_port: int | None) -> Iterator[None]:
-    """Processes that follow the ring; a port of None is not served. Each tells on stderr where it is."""
+def followers(
+    session: "LiveSession", scenario: "Scenario", view_port: int | None, foxglove_port: int | None
+) -> Iterator[None]:
+    """Processes that follow the ring; a port of None is not served.
+
+    Each tells on stderr where it is.
+    """
     with ExitStack() as stack:
         if view_port is not None:
             from ..live.control.state_machine import allowed_buttons
             from ..viewer import ViewerProcess
 
             press, allowed = session.buttons.press, allowed_buttons()
-            viewer = ViewerProcess(session.ring, scenario.platform, press, allowed, port=view_port, title=scenario.name)
+            viewer = ViewerProcess(
+                session.ring, scenario.platform, press, allowed, port=view_port, title=scenario.name
+            )
             stack.enter_context(viewer)
             say(f"view: {viewer.url}")
         if foxglove_port is not None:
             from ..live.output.foxglove_server import FoxgloveProcess
 
-            server = FoxgloveProcess(session.ring, foxglove_port, scenario.platform.head_S, session.started_ns)
+            server = FoxgloveProcess(
+                session.ring, foxglove_port, scenario.platform.head_S, session.started_ns
+            )
             stack.callback(server.close)
             say(f"foxglove: {server.url}")
         yield
@@ -42,7 +51,10 @@ def followers(session: "LiveSession", scenario: "Scenario", view_port: int | Non
 
 @contextmanager
 def drives(setpoints: str | None, key_file: Path | None) -> Iterator[Sequence["Drives"]]:
-    """A sender of set points to HOST:PORT, or none. Raises InputError for an address or key that will not do."""
+    """A sender of set points to HOST:PORT, or none.
+
+    Raises InputError for an address or key that will not do.
+    """
     if setpoints is None:
         if key_file is not None:
             raise InputError("--key is for --setpoints HOST:PORT, which is missing")

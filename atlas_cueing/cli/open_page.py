@@ -4,7 +4,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 
-def check_pages(files: Sequence[Path | None], *, inputs: Sequence[Path], force: bool) -> list[Path | None]:
+def check_pages(
+    files: Sequence[Path | None], *, inputs: Sequence[Path], force: bool
+) -> list[Path | None]:
     """Find out where pages go, by `batch.check_output`; None stands for one that is not asked for.
 
     Raises OutputError when one cannot be written, or exists and may not be replaced.

@@ -7,15 +7,30 @@ import typer
 
 from .text import TRUST_MODELS
 
-ScenarioFile: TypeAlias = Annotated[Path, typer.Argument(help="Scenario file (TOML).", metavar="SCENARIO")]
+ScenarioFile: TypeAlias = Annotated[
+    Path, typer.Argument(help="Scenario file (TOML).", metavar="SCENARIO")
+]
 NewLog: TypeAlias = Annotated[
     Path | None,
-    typer.Option("-o", "--output", metavar="LOG", help="Log to write; by default ./NAME.mcap with the scenario's name."),
+    typer.Option(
+        "-o",
+        "--output",
+        metavar="LOG",
+        help="Log to write; by default ./NAME.mcap with the scenario's name.",
+    ),
 ]
 Settings: TypeAlias = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="KEY=VALUE", help="Set any key of the scenario or its platform; repeatable."),
+    typer.Option(
+        "--set",
+        metavar="KEY=VALUE",
+        help="Set any key of the scenario or its platform; repeatable.",
+    ),
 ]
 TrustModels: TypeAlias = Annotated[bool, typer.Option("--trust-models", help=TRUST_MODELS)]
-Force: TypeAlias = Annotated[bool, typer.Option("--force", help="Replace an existing log, and nothing else.")]
-AsJson: TypeAlias = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
+Force: TypeAlias = Annotated[
+    bool, typer.Option("--force", help="Replace an existing log, and nothing else.")
+]
+AsJson: TypeAlias = Annotated[
+    bool, typer.Option("--json", help="Print one JSON object and nothing else.")
+]

@@ -15,13 +15,19 @@ Examples:
 
 def platform_command(
     name_or_file: Annotated[
-        str, typer.Argument(help="A platform of the package, or a platform file (TOML).", metavar="PRESET_OR_FILE")
+        str,
+        typer.Argument(
+            help="A platform of the package, or a platform file (TOML).", metavar="PRESET_OR_FILE"
+        ),
     ],
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON object and nothing else.")
+    ] = False,
 ) -> None:
     """Show a platform's Jacobians, its conditioning and how fast the sphere may turn.
 
-    Exit status 1 when the geometry is singular: its wheels cannot turn the sphere about every axis without slip.
+    Exit status 1 when the geometry is singular: its wheels cannot turn the sphere about every axis
+        without slip.
     """
     from ..scenario import load_platform
     from .summary import kinematics, platform_summary

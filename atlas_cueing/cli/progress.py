@@ -23,7 +23,10 @@ def shown_progress(name: str, duration: float | None) -> Iterator[Callable[[floa
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-    name_column, flown_column = TextColumn("{task.description}", markup=False), TextColumn("{task.fields[flown]}")
+    name_column, flown_column = (
+        TextColumn("{task.description}", markup=False),
+        TextColumn("{task.fields[flown]}"),
+    )
     columns = [name_column, BarColumn(), flown_column, TimeRemainingColumn()]
     begun = perf_counter()
     with Progress(*columns, console=Console(file=terminal_of(sys.stderr)), transient=True) as bar:

@@ -17,14 +17,20 @@ Examples:
 
 
 def recover_command(
-    broken: Annotated[Path, typer.Argument(help="A cut or damaged log, or the .part of a killed run.", metavar="BROKEN")],
+    broken: Annotated[
+        Path,
+        typer.Argument(
+            help="A cut or damaged log, or the .part of a killed run.", metavar="BROKEN"
+        ),
+    ],
     output: Annotated[Path, typer.Option("-o", "--output", metavar="FIXED", help="Log to write.")],
     as_json: AsJson = False,
     force: Force = False,
 ) -> None:
     """Save what is whole in a broken log.
 
-    Every complete chunk of a cut or damaged log goes into a new, finished one; what was lost is said.
+    Every complete chunk of a cut or damaged log goes into a new, finished one; what was lost is
+    said.
 
     Exit status 0: written. 1: nothing in it can be recovered. 2: bad usage, nothing was written.
     """
@@ -36,5 +42,10 @@ def recover_command(
     if as_json:
         typer.echo(one_json(result.to_json()))
         return
-    rows = [("log", str(result.log)), ("recovered", f"{result.seconds:.2f} s, {result.ticks} ticks")]
-    typer.echo("\n".join(aligned([*rows, *[("lost", lost) for lost in result.lost or ("nothing",)]], "")))
+    rows = [
+        ("log", str(result.log)),
+        ("recovered", f"{result.seconds:.2f} s, {result.ticks} ticks"),
+    ]
+    typer.echo(
+        "\n".join(aligned([*rows, *[("lost", lost) for lost in result.lost or ("nothing",)]], ""))
+    )

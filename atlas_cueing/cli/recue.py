@@ -21,17 +21,24 @@ def recue_command(
     output: Annotated[Path, typer.Option("-o", "--output", metavar="NEW", help="Log to write.")],
     settings: Annotated[
         list[str] | None,
-        typer.Option("--set", metavar="KEY=VALUE", help="Set any key of cueing, platform or recording; repeatable."),
+        typer.Option(
+            "--set",
+            metavar="KEY=VALUE",
+            help="Set any key of cueing, platform or recording; repeatable.",
+        ),
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print the review of the new log as one JSON object.")] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the review of the new log as one JSON object.")
+    ] = False,
     force: Force = False,
 ) -> None:
     """Cue a recorded flight in another way.
 
-    The vehicle in the log goes through another method, other parameters or another platform. Without --set the new log
-    repeats the old one's cue, motion and wheels exactly.
+    The vehicle in the log goes through another method, other parameters or another platform.
+    Without --set the new log repeats the old one's cue, motion and wheels exactly.
 
-    Exit status 0: written and clean. 1: the new log has a finding, or the old one is damaged. 2: bad input, nothing written.
+    Exit status 0: written and clean. 1: the new log has a finding, or the old one is damaged. 2:
+        bad input, nothing written.
     """
     from ..review import cue_again as recued
     from ..review import review_log as judged

@@ -29,21 +29,37 @@ _SHOWN = 20  # findings printed; --json has all
 def review_command(
     log: Annotated[Path, typer.Argument(help="Log (MCAP) of atlas-cueing.", metavar="LOG")],
     html: Annotated[
-        Path | None, typer.Option("--html", metavar="FILE", help="Write plots of everything into one file for a browser.")
+        Path | None,
+        typer.Option(
+            "--html", metavar="FILE", help="Write plots of everything into one file for a browser."
+        ),
     ] = None,
     replay: Annotated[
-        Path | None, typer.Option("--replay", metavar="FILE", help="Write a 3D replay into one file for a browser.")
+        Path | None,
+        typer.Option(
+            "--replay", metavar="FILE", help="Write a 3D replay into one file for a browser."
+        ),
     ] = None,
-    view: Annotated[bool, typer.Option("--view", help="Show the flight in a browser until Ctrl-C, with a play bar.")] = False,
-    port: Annotated[int, typer.Option("--port", min=0, max=65535, help="Port of --view on this machine; 0: any.")] = 8080,
+    view: Annotated[
+        bool,
+        typer.Option("--view", help="Show the flight in a browser until Ctrl-C, with a play bar."),
+    ] = False,
+    port: Annotated[
+        int,
+        typer.Option("--port", min=0, max=65535, help="Port of --view on this machine; 0: any."),
+    ] = 8080,
     as_json: AsJson = False,
-    force: Annotated[bool, typer.Option("--force", help="Replace pages of earlier reviews.")] = False,
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace pages of earlier reviews.")
+    ] = False,
 ) -> None:
     """Judge a log by its own numbers.
 
-    Looked at are every limit, wheels against motion, orientation, felt force, time, and the states of the run.
+    Looked at are every limit, wheels against motion, orientation, felt force, time, and the states
+    of the run.
 
-    Exit status 0: nothing was found. 1: a finding, or the log is damaged or not one of ours. 2: bad usage.
+    Exit status 0: nothing was found. 1: a finding, or the log is damaged or not one of ours. 2: bad
+        usage.
     """
     from ..review import advice
     from ..review import review_log as judged
@@ -56,7 +72,11 @@ def review_command(
         found = judged(log)
     except LogError as error:
         if as_json:
-            typer.echo(one_json({"verdict": "unreadable", "result": "", "reason": str(error), "log": str(log)}))
+            typer.echo(
+                one_json(
+                    {"verdict": "unreadable", "result": "", "reason": str(error), "log": str(log)}
+                )
+            )
         todo = advice(log)
         raise LogError(f"{error}; {todo}" if todo else str(error)) from error
     if html:
@@ -93,10 +113,24 @@ def review_summary(found: "Review") -> str:
         ("verdict", found.verdict),
         ("result", f"{metadata.get('result', '')}  {metadata.get('reason', '')}".rstrip()),
         ("log", str(found.run.log.path)),
-        ("scenario", f"{metadata.get('scenario', '')}, {metadata.get('method', '')} on {metadata.get('platform', '')}"),
-        ("flight", f"{found.duration:.2f} s, {len(found.run.flight.time)} ticks, step {1e3 * found.run.step:.4f} ms"),
+        (
+            "scenario",
+            (
+                f"{metadata.get('scenario', '')}, {metadata.get('method', '')} on"
+                f" {metadata.get('platform', '')}"
+            ),
+        ),
+        (
+            "flight",
+            (
+                f"{found.duration:.2f} s, {len(found.run.flight.time)} ticks, step"
+                f" {1e3 * found.run.step:.4f} ms"
+            ),
+        ),
     ]
     rows = [*head, *headlines(found.metrics), *[("note", note) for note in found.notes]]
-    lines = aligned([*rows, *[("finding", str(finding)) for finding in found.findings[:_SHOWN]]], "")
+    lines = aligned(
+        [*rows, *[("finding", str(finding)) for finding in found.findings[:_SHOWN]]], ""
+    )
     left = len(found.findings) - _SHOWN
     return "\n".join([*lines, *([f"and {left} more findings; --json has all"] if left > 0 else [])])

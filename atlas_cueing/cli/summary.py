@@ -22,9 +22,22 @@ _FELT = (
     ("angular rate", "rate", "rad_s", "deg/s", degrees(1.0)),
     ("attitude", "attitude", "rad", "deg", degrees(1.0)),
 )
-_PERCENTILES = (("p50", "half within"), ("p99", "99 % within"), ("p999", "99.9 % within"), ("max", "all within"))
+_PERCENTILES = (
+    ("p50", "half within"),
+    ("p99", "99 % within"),
+    ("p999", "99.9 % within"),
+    ("max", "all within"),
+)
 _STATISTICS = ("rms", "p95", "max")
-_LIMITS = ("wheel_speed", "wheel_acceleration", "wheel_jerk", "stage_travel", "stage_speed", "stage_acceleration", "stage_jerk")
+_LIMITS = (
+    "wheel_speed",
+    "wheel_acceleration",
+    "wheel_jerk",
+    "stage_travel",
+    "stage_speed",
+    "stage_acceleration",
+    "stage_jerk",
+)
 
 
 def run_summary(result: "RunResult") -> str:
@@ -35,7 +48,9 @@ def run_summary(result: "RunResult") -> str:
 def end(result: "RunResult | LiveResult") -> None:
     """Say on stderr what was found. Raises Exit(1) if anything was."""
     if not result.clean:
-        for finding in ([f"{result.result}: {result.reason}"] if result.reason else []) + list(result.evaluation.violations):
+        for finding in ([f"{result.result}: {result.reason}"] if result.reason else []) + list(
+            result.evaluation.violations
+        ):
             say(finding)
         raise typer.Exit(1)
 
@@ -45,7 +60,13 @@ def live_summary(result: "LiveResult") -> str:
     head = [
         ("result", f"{result.result}  {result.reason}".rstrip()),
         ("log", str(result.log)),
-        ("flown", f"{result.duration:.2f} s, {result.ticks} ticks, {result.faults} faults, {result.dropped} samples dropped"),
+        (
+            "flown",
+            (
+                f"{result.duration:.2f} s, {result.ticks} ticks, {result.faults} faults,"
+                f" {result.dropped} samples dropped"
+            ),
+        ),
         ("violations", str(len(result.evaluation.violations))),
     ]
     return "\n".join([*aligned(head, ""), *aligned(_timing_rows(result), ""), *_evaluation(result)])
@@ -54,16 +75,26 @@ def live_summary(result: "LiveResult") -> str:
 def _evaluation(result: "RunResult | LiveResult") -> list[str]:
     """What was felt, what moved, and the use of the limits."""
     metrics, use = result.evaluation.metrics, result.evaluation.limit_use
-    return [*_felt_table(metrics), *aligned(_motion_rows(metrics), ""), *aligned(_limit_rows(use), "")]
+    return [
+        *_felt_table(metrics),
+        *aligned(_motion_rows(metrics), ""),
+        *aligned(_limit_rows(use), ""),
+    ]
 
 
 def _timing_rows(result: "LiveResult") -> list[tuple[str, str]]:
     timing, realtime = result.timing, result.punctual
     rows = [
-        (title, ", ".join(f"{label} {timing[f'{name}_{key}_us']:.0f}" for key, label in _PERCENTILES) + " us")
+        (
+            title,
+            ", ".join(f"{label} {timing[f'{name}_{key}_us']:.0f}" for key, label in _PERCENTILES)
+            + " us",
+        )
         for title, name in (("lateness", "lateness"), ("tick cost", "tick_cost"))
     ]
-    missed = f"{timing['missed_deadlines']:.0f}, at most {timing['most_missed_in_a_row']:.0f} in a row"
+    missed = (
+        f"{timing['missed_deadlines']:.0f}, at most {timing['most_missed_in_a_row']:.0f} in a row"
+    )
     rows.append(("missed deadlines", missed))
     if realtime.granted or realtime.refused:
         refused = f"; refused: {'; '.join(realtime.refused)}" if realtime.refused else ""
@@ -76,13 +107,19 @@ def _head(result: "RunResult") -> list[tuple[str, str]]:
     return [
         ("result", f"{result.result}  {result.reason}".rstrip()),
         ("log", str(result.log)),
-        ("flight", f"{result.duration:.2f} s, {result.ticks} ticks, flown at {speed:.1f} times real time"),
+        (
+            "flight",
+            f"{result.duration:.2f} s, {result.ticks} ticks, flown at {speed:.1f} times real time",
+        ),
         ("violations", str(len(result.evaluation.violations))),
     ]
 
 
 def _felt_table(metrics: Mapping[str, float]) -> list[str]:
-    """Felt by the rider less felt by the pilot: one line a quantity, one column a statistic; unknown ones are left out."""
+    """Felt by the rider less felt by the pilot: one line a quantity, one column a statistic.
+
+    Unknown ones are left out.
+    """
     lines = [
         f"{title:<17}{unit:<6}" + "".join(_cell(metrics, name, s, suffix, k) for s in _STATISTICS)
         for title, name, suffix, unit, k in _FELT
@@ -92,7 +129,9 @@ def _felt_table(metrics: Mapping[str, float]) -> list[str]:
     return [head, *lines] if lines else []
 
 
-def _cell(metrics: Mapping[str, float], name: str, statistic: str, suffix: str, factor: float) -> str:
+def _cell(
+    metrics: Mapping[str, float], name: str, statistic: str, suffix: str, factor: float
+) -> str:
     value = metrics.get(f"{name}_{statistic}_{suffix}")
     return f"{'-':>10}" if value is None else f"{factor * value:>10.3f}"
 
@@ -100,20 +139,38 @@ def _cell(metrics: Mapping[str, float], name: str, statistic: str, suffix: str, 
 def _motion_rows(metrics: Mapping[str, float]) -> list[tuple[str, str]]:
     if "cue_lag_max_rad" not in metrics:
         return []
-    turns = ", ".join(f"{axis} {metrics[f'turns_{axis}']:+.2f}" for axis in ("roll", "pitch", "yaw"))
-    lag = f"at most {degrees(metrics['cue_lag_max_rad']):.3f} deg, {1e3 * metrics['cue_lag_max_m']:.2f} mm"
-    limited = f"wheels {metrics['wheels_limited_share']:.2%}, stage {metrics['stage_limited_share']:.2%} of the time"
+    turns = ", ".join(
+        f"{axis} {metrics[f'turns_{axis}']:+.2f}" for axis in ("roll", "pitch", "yaw")
+    )
+    lag = (
+        f"at most {degrees(metrics['cue_lag_max_rad']):.3f} deg,"
+        f" {1e3 * metrics['cue_lag_max_m']:.2f} mm"
+    )
+    limited = (
+        f"wheels {metrics['wheels_limited_share']:.2%}, stage {metrics['stage_limited_share']:.2%}"
+        " of the time"
+    )
     return [("net turns", turns), ("lag behind cue", lag), ("limited", limited)]
 
 
 def _limit_rows(use: Mapping[str, float]) -> list[tuple[str, str]]:
     """Largest use of each limit, by logged values or their differences, whichever is larger."""
-    most = {limit: max((u for name, u in use.items() if name.startswith(limit)), default=None) for limit in _LIMITS}
-    return [(f"{limit.replace('_', ' ')}", f"{100.0 * u:.4f} % of its limit") for limit, u in most.items() if u is not None]
+    most = {
+        limit: max((u for name, u in use.items() if name.startswith(limit)), default=None)
+        for limit in _LIMITS
+    }
+    return [
+        (f"{limit.replace('_', ' ')}", f"{100.0 * u:.4f} % of its limit")
+        for limit, u in most.items()
+        if u is not None
+    ]
 
 
 def kinematics(platform: "Platform") -> dict[str, Any]:
-    """Kinematics of a platform by name, unit in the name; `sphere_from_wheels` is None for a singular geometry."""
+    """Kinematics of a platform by name, unit in the name.
+
+    `sphere_from_wheels` is None for a singular geometry.
+    """
     geometry = platform.geometry()
     room = headroom(geometry, platform.wheel_limit_values())
     return {

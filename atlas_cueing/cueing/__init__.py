@@ -1,7 +1,7 @@
 """Vehicle state to cue: what the platform should do, before anyone asks whether it can.
 
-A rotation method turns the vehicle into an orientation of the sphere; the stage adds what acceleration it can.
-Nothing is ever washed out to neutral.
+A rotation method turns the vehicle into an orientation of the sphere; the stage adds what
+acceleration it can. Nothing is ever washed out to neutral.
 """
 
 from .cueing import Cueing, CueSource, RotationMethod, build_cueing

@@ -11,12 +11,16 @@ from .tilt import ForceDirection, aligned, misalignment
 
 
 class BlendRotation:
-    """Cabin rate = gain * body rate + slow turn towards the vehicle's specific force; nothing returns to neutral.
+    """Cabin rate = gain * body rate + slow turn towards the vehicle's specific force.
 
-    The slow turn takes the cabin from the rate of the vehicle to the rate that stays with the force (as in method `force`, both
-    behind the same filter), and takes back what misalignment is left. So fast turns are the vehicle's own, lasting ones keep
-    the direction of the force, and where the two agree the rates pass one to one. Its limit (3 deg/s) is also the method's: in
-    a level turn at rate psi' and bank phi it has to undo psi' sin(phi), and beyond that the cabin cannot stay with the force.
+    Nothing returns to neutral.
+
+    The slow turn takes the cabin from the rate of the vehicle to the rate that stays with the force
+    (as in method `force`, both behind the same filter), and takes back what misalignment is left.
+    So fast turns are the vehicle's own, lasting ones keep the direction of the force, and where the
+    two agree the rates pass one to one. Its limit (3 deg/s) is also the method's: in a level turn
+    at rate psi' and bank phi it has to undo psi' sin(phi), and beyond that the cabin cannot stay
+    with the force.
     """
 
     def __init__(self, dt: float, parameters: BlendParameters) -> None:
@@ -34,10 +38,15 @@ class BlendRotation:
         direction.step(f_S)
         lasting = rate.step(w_S)
         cabin.carry(w_S)
-        cabin.correct(misalignment(cabin.q_WS, f_S, self._parameters.hold), subtract(direction.carried(lasting), lasting))
+        cabin.correct(
+            misalignment(cabin.q_WS, f_S, self._parameters.hold),
+            subtract(direction.carried(lasting), lasting),
+        )
         return cabin.cue
 
-    def _begin(self, vehicle: VehicleState, w_S: Vec3, f_S: Vec3) -> tuple[Cabin, ForceDirection, DampedVector]:
+    def _begin(
+        self, vehicle: VehicleState, w_S: Vec3, f_S: Vec3
+    ) -> tuple[Cabin, ForceDirection, DampedVector]:
         dt, parameters = self._dt, self._parameters
         cabin = Cabin(dt, aligned(vehicle, parameters.hold), w_S, parameters.turn)
         direction = ForceDirection(dt, parameters.bandwidth, parameters.hold, f_S)

@@ -29,8 +29,9 @@ from .parameters import SlowTurnParameters
 class SlowTurn:
     """Rate at which the cabin takes back an error without being noticed.
 
-    The wish error / time + w, at most `rate` long, passes a critically damped filter in cabin axes. The filter keeps the rate
-    inside the ball of its wishes and its derivative below 2 rate / (e smoothing); both bounds hold for any error.
+    The wish error / time + w, at most `rate` long, passes a critically damped filter in cabin axes.
+    The filter keeps the rate inside the ball of its wishes and its derivative below 2 rate / (e
+    smoothing); both bounds hold for any error.
     """
 
     def __init__(self, dt: float, parameters: SlowTurnParameters) -> None:
@@ -46,7 +47,10 @@ class SlowTurn:
 
 
 class Cabin:
-    """Orientation q_WS that turns with a given rate plus the slow turn; integrated, so that it can go on for ever."""
+    """Orientation q_WS that turns with a given rate plus the slow turn.
+
+    Integrated, so that it can go on for ever.
+    """
 
     def __init__(self, dt: float, q_WS: Quat, w_S: Vec3, parameters: SlowTurnParameters) -> None:
         """Begin in q_WS, turning with w_S (rad/s, S); dt in s."""
@@ -63,7 +67,8 @@ class Cabin:
         """Turn slowly for the same tick, by what is then left (rotation vector error_S, rad, S) and with w_S (rad/s, S)."""
         before, self._w_slow = self._w_slow, self._slow.step(error_S, w_S)
         slow = scale(0.5 * self._dt, add(before, self._w_slow))
-        slow = subtract(slow, scale(0.5, cross(self._turn, slow)))  # as if both turns were made at once, to second order
+        # as if both turns were made at once, to second order
+        slow = subtract(slow, scale(0.5, cross(self._turn, slow)))
         self.q_WS = normalise(multiply(self.q_WS, exp(slow)))
 
     @property

@@ -1,13 +1,16 @@
 """Method `classical`: the washout of hexapods, as the baseline people know.
 
-The three channels of L. D. Reid & M. A. Nahon, "Flight simulation motion-base drive algorithms", UTIAS Report 296, 1985:
+The three channels of L. D. Reid & M. A. Nahon, "Flight simulation motion-base drive algorithms",
+UTIAS Report 296, 1985:
 
-- rotation: body rates, scaled, become Euler rates of the cabin and pass s^2 / (s + w)^2, so every angle returns to zero;
-- tilt coordination: the lasting part of the scaled specific force, by w^2 / (s + w)^2, becomes pitch and roll angles whose
-  rate is limited below the threshold;
+- rotation: body rates, scaled, become Euler rates of the cabin and pass s^2 / (s + w)^2, so every
+    angle returns to zero;
+- tilt coordination: the lasting part of the scaled specific force, by w^2 / (s + w)^2, becomes
+  pitch and roll angles whose rate is limited below the threshold;
 - translation: the high-pass of `stage`, with the parameters of the same set.
 
-Angles of the first two add up and are limited as a hexapod's are. Defaults of the TU Delft set; see ClassicalParameters.
+Angles of the first two add up and are limited as a hexapod's are. Defaults of the TU Delft set; see
+ClassicalParameters.
 """
 
 # mypyc: runs every tick
@@ -30,13 +33,21 @@ class ClassicalRotation:
         """Begin with nothing but the tilt of the first force; dt in s."""
         self._dt, self._parameters = dt, parameters
         roll, pitch, yaw = parameters.high_pass
-        self._roll, self._pitch, self._yaw = WashoutAngle(dt, roll), WashoutAngle(dt, pitch), WashoutAngle(dt, yaw)
+        self._roll, self._pitch, self._yaw = (
+            WashoutAngle(dt, roll),
+            WashoutAngle(dt, pitch),
+            WashoutAngle(dt, yaw),
+        )
         self._roll_tilt, self._pitch_tilt = TiltAngle(dt, parameters), TiltAngle(dt, parameters)
         self._angles, self._q_WS = ZERO, (1.0, 0.0, 0.0, 0.0)
 
     def step(self, vehicle: VehicleState) -> tuple[Quat, Vec3]:
         """Orientation q_WS and rate w_WS_W (rad/s) of the cue."""
-        rates, gain, bound = self._euler_rates(vehicle), self._parameters.tilt_gain, self._parameters.angle_limit
+        rates, gain, bound = (
+            self._euler_rates(vehicle),
+            self._parameters.tilt_gain,
+            self._parameters.angle_limit,
+        )
         roll_tilt = self._roll_tilt.step(-gain[1] * vehicle.f_B[1])
         pitch_tilt = self._pitch_tilt.step(gain[0] * vehicle.f_B[0])
         phi, phi_rate = _limit(_sum(self._roll.step(rates[0]), roll_tilt), bound)

@@ -21,7 +21,8 @@ from .parameters import (
 from .stage.stage_cueing import StageCueing
 
 RotationMethod: TypeAlias = AttitudeRotation | BlendRotation | ClassicalRotation | ForceRotation
-"""How the sphere follows the vehicle: `step` gives orientation q_WS and rate w_WS_W (rad/s) for a vehicle state."""
+"""How the sphere follows the vehicle: `step` gives orientation q_WS and rate w_WS_W (rad/s) for a
+    vehicle state."""
 
 
 class CueSource(Protocol):
@@ -34,7 +35,8 @@ class CueSource(Protocol):
 class Cueing:
     """Turns vehicle states into cues, at a fixed tick.
 
-    States are believable ones, as `vehicles` lets through (`Bounds`): finite, and far from overflow.
+    States are believable ones, as `vehicles` lets through (`Bounds`): finite, and far from
+    overflow.
     """
 
     def __init__(self, rotation: RotationMethod, stage: StageCueing) -> None:
@@ -48,8 +50,13 @@ class Cueing:
         return Cue(vehicle.time, q_WS, w_WS_W, p_WS_W, v_WS_W, a_WS_W)
 
 
-def build_cueing(method: MethodParameters, stage: StageParameters, limits: StageLimits, head_S: Vec3, dt: float) -> Cueing:
-    """Cueing by the method whose parameters are given; limits and head_S (m, S) of the platform, dt in s."""
+def build_cueing(
+    method: MethodParameters, stage: StageParameters, limits: StageLimits, head_S: Vec3, dt: float
+) -> Cueing:
+    """Cueing by the method whose parameters are given.
+
+    Limits and head_S (m, S) of the platform, dt in s.
+    """
     rotation: RotationMethod
     match method:
         case AttitudeParameters():

@@ -23,7 +23,10 @@ class CriticalDamping:
     def step(self, x: float, v: float, target: float) -> tuple[float, float]:
         """State (x, x') after one step."""
         z = x - target
-        return target + self._x_from_z * z + self._x_from_v * v, self._v_from_z * z + self._v_from_v * v
+        return (
+            target + self._x_from_z * z + self._x_from_v * v,
+            self._v_from_z * z + self._v_from_v * v,
+        )
 
 
 class DampedVector:

@@ -13,10 +13,12 @@ ONES: Vec3 = (1.0, 1.0, 1.0)
 class SlowTurnParameters:
     """The turn of the cabin that the vehicle does not make.
 
-    rate: largest rate, rad/s. 3 deg/s is the customary limit (Groen & Bles, J. Vestibular Research 14, 2004).
+    rate: largest rate, rad/s. 3 deg/s is the customary limit (Groen & Bles, J. Vestibular Research
+        14, 2004).
     time: an error is taken back in about this time while the rate allows, s (assumed).
-    smoothing: time constant of the critically damped filter on the rate, s (assumed). It bounds the acceleration of the
-        turn to 2 rate / (e smoothing), reached when the rate flips from one limit to the other.
+    smoothing: time constant of the critically damped filter on the rate, s (assumed). It bounds the
+        acceleration of the turn to 2 rate / (e smoothing), reached when the rate flips from one
+        limit to the other.
     """
 
     rate: float = radians(3.0)
@@ -56,9 +58,12 @@ class ForceParameters:
     """Method `force`: W's up follows the vehicle's specific force in the cabin.
 
     rotation_gain: factor on the vehicle's rates; only what of them lies along the force is used.
-    bandwidth: natural frequency of the filter on the force, rad/s (assumed: 1 Hz, above manoeuvres and below buffeting).
-    hold: the cabin follows the force fully from twice this magnitude on and not at all below it, m/s^2 (assumed).
-    turn: takes back what misalignment is left (assumed: half a turn a second at most, as fast as the wheels of Atlas).
+    bandwidth: natural frequency of the filter on the force, rad/s (assumed: 1 Hz, above manoeuvres
+        and below buffeting).
+    hold: the cabin follows the force fully from twice this magnitude on and not at all below it,
+        m/s^2 (assumed).
+    turn: takes back what misalignment is left (assumed: half a turn a second at most, as fast as
+        the wheels of Atlas).
     """
 
     rotation_gain: Vec3 = ONES
@@ -117,14 +122,20 @@ class PreviewParameters:
 class HorizonParameters:
     """How the stage plans ahead (`cueing.horizon`).
 
-    planning_rate: plans per second, at least (assumed; 25 to 100 Hz made no difference of 0.3 % to the force error).
-    length: from now to where every plan stands, s (assumed: braking is over by then, 3.5 / onset; 4 to 7 s made no difference).
+    planning_rate: plans per second, at least (assumed; 25 to 100 Hz made no difference of 0.3 % to
+        the force error).
+    length: from now to where every plan stands, s (assumed: braking is over by then, 3.5 / onset; 4
+        to 7 s made no difference).
     blocks: pieces of constant jerk in a plan, short ones first (9 to 16 made no difference).
-    fade: time constant with which the demand is thought to go on, s (assumed); it counts only where a limit is in the way.
-    excess: the demand is limited smoothly at this many times what the onset filter could follow whatever came (found).
-    memory: how far back it is looked to see what share of the demand is worth moving for, s (assumed; 8 to 30 s do).
+    fade: time constant with which the demand is thought to go on, s (assumed); it counts only where
+        a limit is in the way.
+    excess: the demand is limited smoothly at this many times what the onset filter could follow
+        whatever came (found).
+    memory: how far back it is looked to see what share of the demand is worth moving for, s
+        (assumed; 8 to 30 s do).
     first_share: that share to begin with (found: more would cost where little is to be won).
-    doubt: mean square acceleration of the filter, m^2/s^4, at which experience counts as much as the first share (assumed).
+    doubt: mean square acceleration of the filter, m^2/s^4, at which experience counts as much as
+        the first share (assumed).
     """
 
     planning_rate: float = 50.0
@@ -139,19 +150,21 @@ class HorizonParameters:
 
 @dataclass(frozen=True, slots=True)
 class StageParameters:
-    """The stage: onsets of the acceleration that the rider's head should have, inside the travel; per axis x, y, z of W.
+    """The stage: onsets of the acceleration that the rider's head should have, inside the travel.
+
+    Per axis x, y, z of W.
 
     force_gain: factor on the demanded acceleration.
-    onset: natural frequency of the braking high-pass, rad/s (found: lower is slower to brake and needs more travel; TU Delft's
-        classical set has 0.8 to 1).
-    recentre: corner of the return to the centre, rad/s; 0 for none beyond the high-pass. The return takes at most
-        travel recentre^2 of acceleration, which at 0.2 rad/s and 1 m is 0.04 m/s^2, below the 0.063 (horizontal) and 0.154
-        m/s^2 (vertical) at which linear motion begins to be felt (Benson, Spencer & Stott, Aviation, Space and Environmental
-        Medicine 57, 1986).
+    onset: natural frequency of the braking high-pass, rad/s (found: lower is slower to brake and
+        needs more travel; TU Delft's classical set has 0.8 to 1).
+    recentre: corner of the return to the centre, rad/s; 0 for none beyond the high-pass. The return
+        takes at most travel recentre^2 of acceleration, which at 0.2 rad/s and 1 m is 0.04 m/s^2,
+        below the 0.063 (horizontal) and 0.154 m/s^2 (vertical) at which linear motion begins to be
+        felt (Benson, Spencer & Stott, Aviation, Space and Environmental Medicine 57, 1986).
     bandwidth: corner of the low-pass on the demand, Hz (assumed).
     travel: no more than this of the platform's travel is used, m.
-    horizon: how to plan ahead; None for the onset filter by itself, which has to be slower to move or quicker to brake (of it
-        force_gain 0.4 with onset 2 did best).
+    horizon: how to plan ahead; None for the onset filter by itself, which has to be slower to move
+        or quicker to brake (of it force_gain 0.4 with onset 2 did best).
     """
 
     force_gain: Vec3 = ONES
@@ -163,8 +176,14 @@ class StageParameters:
 
 
 CLASSICAL_STAGE = StageParameters(
-    (0.6, 0.6, 0.5), onset=(0.8, 1.0, 1.0), recentre=(0.0, 0.0, 0.2), travel=(0.6, 0.6, 0.6), horizon=None
+    (0.6, 0.6, 0.5),
+    onset=(0.8, 1.0, 1.0),
+    recentre=(0.0, 0.0, 0.2),
+    travel=(0.6, 0.6, 0.6),
+    horizon=None,
 )
 """The TU Delft set for `classical`; the travel is assumed, that of a hexapod of 60 inch stroke."""
 
-MethodParameters: TypeAlias = AttitudeParameters | BlendParameters | ForceParameters | ClassicalParameters
+MethodParameters: TypeAlias = (
+    AttitudeParameters | BlendParameters | ForceParameters | ClassicalParameters
+)

@@ -1,7 +1,8 @@
 """Gravity as a cue: turning the cabin so that its up lies along a specific force.
 
-A rider at rest feels R_SW (0, 0, g), upwards in W, whose direction in the cabin is u = R_SW z. A fixed direction of W moves in
-the cabin with u' = -w x u, so u is turned towards a force f by the rate (f x u) / |f x u|.
+A rider at rest feels R_SW (0, 0, g), upwards in W, whose direction in the cabin is u = R_SW z. A
+fixed direction of W moves in the cabin with u' = -w x u, so u is turned towards a force f by the
+rate (f x u) / |f x u|.
 """
 
 # mypyc: runs every tick
@@ -43,7 +44,8 @@ def aligned(vehicle: VehicleState, hold: float) -> Quat:
 def misalignment(q_WS: Quat, f_S: Vec3, hold: float) -> Vec3:
     """Turn of the cabin (rotation vector, rad, S) that would bring W's up to the direction of f_S.
 
-    There is no direction near zero force: the turn fades out where |f_S| falls from twice `hold` to `hold`, m/s^2.
+    There is no direction near zero force: the turn fades out where |f_S| falls from twice `hold` to
+        `hold`, m/s^2.
     """
     up_S = up_in_body(q_WS)
     force = norm(f_S)
@@ -71,16 +73,20 @@ def fade_in(force: float, hold: float) -> float:
 class ForceDirection:
     """The vehicle's specific force in the cabin, filtered, and the cabin rate that stays with it.
 
-    f passes a critically damped filter, which gives f' as well. u = f / |f| stays W's up if -w x u = u', so
+    f passes a critically damped filter, which gives f' as well. u = f / |f| stays W's up if -w x u
+    = u', so
 
         w = (f' x f) / |f|^2 + (w_vehicle . f) f / |f|^2
 
-    with the first term across f, and the vehicle's own turn about it. Near zero force, where f has no direction, it fades over
-    to the vehicle's rate (`presence`).
+    with the first term across f, and the vehicle's own turn about it. Near zero force, where f has
+    no direction, it fades over to the vehicle's rate (`presence`).
     """
 
     def __init__(self, dt: float, bandwidth: float, hold: float, f_S: Vec3) -> None:
-        """Begin with the lasting force f_S, m/s^2; natural frequency `bandwidth` in rad/s; dt in s."""
+        """Begin with the lasting force f_S, m/s^2; natural frequency `bandwidth` in rad/s.
+
+        Dt in s.
+        """
         self._force, self._hold = DampedVector(bandwidth, dt, f_S), hold
 
     def step(self, f_S: Vec3) -> Vec3:
@@ -94,4 +100,6 @@ class ForceDirection:
         there = fade_in(force, self._hold)
         along = scale(1.0 / max(force, self._hold), f_S)
         across = cross(scale(1.0 / max(force, self._hold), rate), along)
-        return add(scale(there, add(across, scale(dot(w_S, along), along))), scale(1.0 - there, w_S))
+        return add(
+            scale(there, add(across, scale(dot(w_S, along), along))), scale(1.0 - there, w_S)
+        )

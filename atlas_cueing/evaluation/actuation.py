@@ -61,28 +61,40 @@ def effort(flight: RunColumns) -> dict[str, float]:
     """Figures of smoothing and of the actuators.
 
     - cue_lag: motion against cue;
-    - wheels_limited_share, stage_limited_share: ticks at which smoothing could not give what was asked;
-    - added_...: what smoothing adds to angular acceleration and stage acceleration while no limit is active (this tick and
-      its neighbours), 0 where there is no such tick: chatter shows here. The added angular velocity is differenced,
-      backwards; the added stage acceleration is in the log;
+    - wheels_limited_share, stage_limited_share: ticks at which smoothing could not give what was
+        asked;
+    - added_...: what smoothing adds to angular acceleration and stage acceleration while no limit
+      is active (this tick and its neighbours), 0 where there is no such tick: chatter shows here.
+      The added angular velocity is differenced, backwards; the added stage acceleration is in the
+      log;
     - wheel_..., stage_...: largest magnitudes.
     """
     return gathered(Actuation(), flight)
 
 
 class _Unlimited:
-    """Magnitudes at ticks at which no limit is active, nor at their neighbours; a tick waits for the next one."""
+    """Magnitudes at ticks at which no limit is active, nor at their neighbours.
+
+    A tick waits for the next one.
+    """
 
     def __init__(self) -> None:
         self._free = Magnitudes()
         self._waiting: Array = np.empty(0)  # the value of the last tick
-        self._active: NDArray[np.bool_] = np.zeros(1, np.bool_)  # a limit, at the tick before the last and at the last one
+        # a limit, at the tick before the last and at the last one
+        self._active: NDArray[np.bool_] = np.zeros(1, np.bool_)
 
     def add(self, values: Array, active: NDArray[np.bool_]) -> None:
-        """Values (n,) at ticks at which a limit is `active` (n,) or not; the first tick of all may have no value."""
+        """Values (n,) at ticks at which a limit is `active` (n,) or not.
+
+        The first tick of all may have no value.
+        """
         if len(values) < len(active):
             self._active, active = active[:1], active[1:]
-        values, active = np.concatenate([self._waiting, values]), np.concatenate([self._active, active])
+        values, active = (
+            np.concatenate([self._waiting, values]),
+            np.concatenate([self._active, active]),
+        )
         self._free.add(values[:-1][~(active[:-2] | active[1:-1] | active[2:])])
         self._waiting, self._active = values[-1:], active[-2:]
 

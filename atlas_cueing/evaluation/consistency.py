@@ -23,7 +23,10 @@ class Consistency:
         self._speed.add(block.wheel_speed - block.motion_w_W @ self._from_sphere)
         self._acceleration.add(block.wheel_acceleration - block.motion_alpha_W @ self._from_sphere)
         drift = geodesic(self._course.orientations(block), block.motion_q_WS)
-        self._final, self._largest = float(drift[-1]), float(np.maximum(self._largest, np.max(drift)))
+        self._final, self._largest = (
+            float(drift[-1]),
+            float(np.maximum(self._largest, np.max(drift))),
+        )
 
     def figures(self) -> dict[str, float]:
         """Those of `consistency`."""
@@ -35,13 +38,17 @@ class Consistency:
         }
 
 
-def consistency(flight: RunColumns, wheels_from_sphere: ArrayLike, sphere_from_wheels: ArrayLike) -> dict[str, float]:
+def consistency(
+    flight: RunColumns, wheels_from_sphere: ArrayLike, sphere_from_wheels: ArrayLike
+) -> dict[str, float]:
     """How well the logged quantities agree with each other.
 
-    - wheel_speed_mismatch_max_rad_s, wheel_acceleration_mismatch_max_rad_s2: logged against J^-1 times the logged motion;
+    - wheel_speed_mismatch_max_rad_s, wheel_acceleration_mismatch_max_rad_s2: logged against J^-1
+        times the logged motion;
     - orientation_drift_final_rad, orientation_drift_max_rad: `reintegrate` against the logged q_WS.
 
-    The matrices are (3, 3): wheel speeds = wheels_from_sphere @ w_WS_W (J^-1, Eq. 22), and back (J, Eq. 18).
+    The matrices are (3, 3): wheel speeds = wheels_from_sphere @ w_WS_W (J^-1, Eq. 22), and back (J,
+    Eq. 18).
     """
     return gathered(Consistency(wheels_from_sphere, sphere_from_wheels), flight)
 
@@ -66,7 +73,9 @@ class _Course:
 
     def orientations(self, block: RunColumns) -> Array:
         """At the ticks that follow, (n, 4)."""
-        time, speed, acceleration = self._tail.joined(block.time, block.wheel_speed, block.wheel_acceleration)
+        time, speed, acceleration = self._tail.joined(
+            block.time, block.wheel_speed, block.wheel_acceleration
+        )
         turns = _turns(np.diff(time), speed @ self._to_sphere, acceleration @ self._to_sphere)
         if self._last is None:
             course = accumulated(block.motion_q_WS[0], turns)

@@ -8,8 +8,11 @@ from .run_columns import Array, RunColumns, Tail, gathered
 from .statistics import Spread
 
 NOD = 1.0
-"""Rate of the reference nod, rad/s (assumed): 30 deg, the nod of Woodman & Griffin, Aviation, Space and Environmental Medicine
-68 (1997), in half a second."""
+"""Rate of the reference nod, rad/s (assumed).
+
+30 deg, the nod of Woodman & Griffin, Aviation, Space and Environmental Medicine
+68 (1997), in half a second.
+"""
 
 _AXES = ("roll", "pitch", "yaw")
 
@@ -34,19 +37,27 @@ class Coriolis:
         """Those of `turning`."""
         found: dict[str, float] = {}
         for name, exposure in (("coriolis", self._rider), ("vehicle_coriolis", self._pilot)):
-            found |= {f"{name}_rms_rad_s2": exposure.rms, f"{name}_p95_rad_s2": exposure.quantile(0.95)}
-        return found | {f"turns_{name}": float(turned) / tau for name, turned in zip(_AXES, self._turned, strict=True)}
+            found |= {
+                f"{name}_rms_rad_s2": exposure.rms,
+                f"{name}_p95_rad_s2": exposure.quantile(0.95),
+            }
+        return found | {
+            f"turns_{name}": float(turned) / tau
+            for name, turned in zip(_AXES, self._turned, strict=True)
+        }
 
 
 def turning(flight: RunColumns) -> dict[str, float]:
     """Coriolis exposure of rider and pilot, and the cabin's net turns.
 
-    - coriolis_rms_rad_s2, coriolis_p95_rad_s2: magnitude of the angular acceleration w x n that the canals of a rider get, on
-      top of the cabin's, from nodding at the rate n = `NOD` about the cabin's y while the cabin turns at w. This cross-coupling
-      is what makes head movements in a turning cabin sickening (Guedry & Benson, Aviation, Space and Environmental Medicine
-      49, 1978); it is NOD * sqrt(wx^2 + wz^2), turning about the nod's own axis is harmless;
+    - coriolis_rms_rad_s2, coriolis_p95_rad_s2: magnitude of the angular acceleration w x n that the
+      canals of a rider get, on top of the cabin's, from nodding at the rate n = `NOD` about the
+      cabin's y while the cabin turns at w. This cross-coupling is what makes head movements in a
+      turning cabin sickening (Guedry & Benson, Aviation, Space and Environmental Medicine 49,
+      1978); it is NOD * sqrt(wx^2 + wz^2), turning about the nod's own axis is harmless;
     - vehicle_coriolis_...: the same for a pilot in the vehicle: what the mission asks for anyway;
-    - turns_roll, turns_pitch, turns_yaw: net turns of the cabin about its own axes, forward-right-down, with sign.
+    - turns_roll, turns_pitch, turns_yaw: net turns of the cabin about its own axes,
+        forward-right-down, with sign.
     """
     return gathered(Coriolis(), flight)
 

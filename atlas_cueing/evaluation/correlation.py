@@ -8,24 +8,30 @@ from numpy.typing import NDArray
 from .run_columns import Array
 
 WINDOW = 0.5
-"""Largest delay that is looked for, s (assumed): several times what a rider takes for the same motion; at most a quarter of
-the record, so that most of it is compared at any shift."""
+"""Largest delay that is looked for, s (assumed): several times what a rider takes for the same
+motion; at most a quarter of the record, so that most of it is compared at any shift."""
 
 MOST = 8192
-"""Ticks that a delay is looked for at most: `WINDOW` up to 16 kHz, and bounded memory whatever rate a log claims."""
+"""Ticks that a delay is looked for at most: `WINDOW` up to 16 kHz, and bounded memory whatever rate
+    a log claims."""
 
-_TRANSFORM = 1 << 13  # values, at least; the sum of the spectra of pieces is the spectrum of the sum
+# values, at least; the sum of the spectra of pieces is the spectrum of the sum
+_TRANSFORM = 1 << 13
 _FLAT = 1e-12  # of a correlation: shifts this close to the best fit as well (a ramp fits at any)
-_STILL = 1e-12  # of a variance: where no more is left in the overlap, what varies hangs over and there is nothing to compare
-_HALF = 1e-6  # ticks: where the window ends amid two ticks, rounding of the step does not decide between them
+# of a variance: where no more is left in the overlap, what varies hangs over and there is nothing
+# to compare
+_STILL = 1e-12
+# ticks: where the window ends amid two ticks, rounding of the step does not decide between them
+_HALF = 1e-6
 
 
 class Correlation:
     """`correlation` of two signals that come block by block.
 
-    Means and variances are from plain sums, of the signals less a constant c each: the mean of their first block. With m and s
-    the mean and standard deviation of all n values, the squares of the first B of them alone give n s^2 >= B (c - m)^2, so
-    (c - m)^2 / s^2 is at most n / B: over an hour at 1 kHz three of sixteen digits may cancel, and no more.
+    Means and variances are from plain sums, of the signals less a constant c each: the mean of
+    their first block. With m and s the mean and standard deviation of all n values, the squares of
+    the first B of them alone give n s^2 >= B (c - m)^2, so (c - m)^2 / s^2 is at most n / B: over
+    an hour at 1 kHz three of sixteen digits may cancel, and no more.
     """
 
     def __init__(self, dt: float, smallest: float = 0.0) -> None:
@@ -43,7 +49,11 @@ class Correlation:
 
     def peak(self) -> tuple[float, float]:
         """That of `correlation`."""
-        if not _step(self._dt) or not self._v.vary(self._smallest) or not self._p.vary(self._smallest):
+        if (
+            not _step(self._dt)
+            or not self._v.vary(self._smallest)
+            or not self._p.vary(self._smallest)
+        ):
             return 0.0, 0.0
         most = min(self._window, self._v.count // 4)
         values = self._pearson(most)
@@ -60,13 +70,20 @@ class Correlation:
         sum_v, square_v = v.overlapping(most)
         sum_p, square_p = (sums[::-1] for sums in p.overlapping(most))  # the other end hangs over
         covariance = self._products.sums(most) - sum_v * sum_p / overlap
-        scatter_v, scatter_p = square_v - sum_v * sum_v / overlap, square_p - sum_p * sum_p / overlap
+        scatter_v, scatter_p = (
+            square_v - sum_v * sum_v / overlap,
+            square_p - sum_p * sum_p / overlap,
+        )
         still = (scatter_v <= _STILL * v.scatter) | (scatter_p <= _STILL * p.scatter)
-        values: Array = np.where(still, 0.0, covariance / np.sqrt(np.where(still, 1.0, scatter_v * scatter_p)))
+        values: Array = np.where(
+            still, 0.0, covariance / np.sqrt(np.where(still, 1.0, scatter_v * scatter_p))
+        )
         return values
 
 
-def correlation(reference: Array, delayed: Array, dt: float, smallest: float = 0.0) -> tuple[float, float]:
+def correlation(
+    reference: Array, delayed: Array, dt: float, smallest: float = 0.0
+) -> tuple[float, float]:
     """Peak of the normalised cross-correlation of two signals (n,) and the delay (s) at which it stands.
 
     At every shift within +-`WINDOW` the correlation is Pearson's, with means and variances of the ticks that overlap at that
@@ -88,7 +105,10 @@ def _step(dt: float) -> bool:
 
 
 class _Sums:
-    """Sums of a signal's values and of their squares, also without some at an end; all less the mean of its first block."""
+    """Sums of a signal's values and of their squares, also without some at an end.
+
+    All less the mean of its first block.
+    """
 
     def __init__(self, window: int) -> None:
         self.count, self._window = 0, window
@@ -108,7 +128,11 @@ class _Sums:
         self._square += float(np.einsum("i,i->", x, x))
         if len(self._head) < self._window:
             self._head = np.concatenate([self._head, x[: self._window]])[: self._window]
-        self._tail = np.concatenate([self._tail, x])[-self._window :] if len(x) < self._window else x[len(x) - self._window :]
+        self._tail = (
+            np.concatenate([self._tail, x])[-self._window :]
+            if len(x) < self._window
+            else x[len(x) - self._window :]
+        )
         return x
 
     @property
@@ -124,7 +148,10 @@ class _Sums:
         return self.scatter > self.count * least * least
 
     def overlapping(self, most: int) -> tuple[Array, Array]:
-        """Sums of values and of squares, (2 most + 1,): without the first `most`, ... 2, 1, 0 and the last 1, 2, ... `most`."""
+        """Sums of values and of squares, (2 most + 1,).
+
+        Without the first `most`, ... 2, 1, 0 and the last 1, 2, ... `most`.
+        """
         head, tail = self._head[:most], self._tail[::-1][:most]
         return _without(self._sum, head, tail), _without(self._square, head * head, tail * tail)
 
@@ -141,7 +168,8 @@ class _Products:
 
     def __init__(self, window: int, size: int) -> None:
         self._window, self._size, self._step = window, size, size - 2 * window
-        self._v, self._p = np.empty(0), np.zeros(window)  # of no piece yet; p from a window before v on
+        # of no piece yet; p from a window before v on
+        self._v, self._p = np.empty(0), np.zeros(window)
         self._spectrum = np.zeros(size // 2 + 1, dtype=np.complex128)
 
     def add(self, v: Array, p: Array) -> None:
@@ -161,7 +189,9 @@ class _Products:
 
     def _piece(self, v: Array, p: Array) -> NDArray[np.complex128]:
         """Spectrum of the products of the first piece of v with p, which begins a window before it."""
-        return np.conj(np.fft.rfft(v[: self._step], self._size)) * np.fft.rfft(p[: self._size], self._size)
+        return np.conj(np.fft.rfft(v[: self._step], self._size)) * np.fft.rfft(
+            p[: self._size], self._size
+        )
 
 
 def _best(values: Array) -> int:

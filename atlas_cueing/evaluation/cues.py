@@ -11,16 +11,23 @@ from ..rotation import Vec3
 from .run_columns import Array
 
 FORCE_THRESHOLD: Vec3 = (0.17, 0.17, 0.28)
-"""Specific force along x, y, z that a pilot begins to notice, m/s^2: Reid & Nahon, "Flight Simulation Motion-Base Drive
-Algorithms: Part 1", UTIAS Report 296 (1985). In the laboratory, in the dark, less is found: 0.063 and 0.154 m/s^2 (Benson,
-Spencer & Stott, Aviation, Space and Environmental Medicine 57, 1986)."""
+"""Specific force along x, y, z that a pilot begins to notice, m/s^2.
+
+Reid & Nahon, "Flight Simulation Motion-Base Drive Algorithms: Part 1", UTIAS Report 296 (1985). In
+the laboratory, in the dark, less is found: 0.063 and 0.154 m/s^2 (Benson, Spencer & Stott,
+Aviation, Space and Environmental Medicine 57, 1986).
+"""
 
 RATE_THRESHOLD: Vec3 = (radians(3.0), radians(3.6), radians(2.6))
-"""Angular rate about x, y, z that a pilot begins to notice, rad/s: the same report (3.0, 3.6 and 2.6 deg/s)."""
+"""Angular rate about x, y, z that a pilot begins to notice, rad/s.
+
+The same report (3.0, 3.6 and 2.6 deg/s).
+"""
 
 GAIN_BAND = (0.8, 1.25)
-"""Gains of a cue that a rider takes for one to one (assumed): the lower end is that of high fidelity in Sinacori's criterion as
-used by Schroeder, NASA/TP-1999-208766; the upper end is its reciprocal."""
+"""Gains of a cue that a rider takes for one to one (assumed): the lower end is that of high
+fidelity in Sinacori's criterion as used by Schroeder, NASA/TP-1999-208766; the upper end is its
+reciprocal."""
 
 
 class CueCounter:
@@ -50,10 +57,12 @@ class CueCounter:
 
 
 def cue_shares(vehicle: Array, platform: Array, threshold: float) -> dict[str, float]:
-    """Shares (0 to 1) of the ticks at which a cue is missing, false or scaled; no tick is two of them.
+    """Shares (0 to 1) of the ticks at which a cue is missing, false or scaled.
 
-    vehicle and platform (n,) are one axis of what the pilot and the rider have, as departures from rest; `threshold` is in
-    their unit. A cue is there when its magnitude is above the threshold.
+    No tick is two of them.
+
+    vehicle and platform (n,) are one axis of what the pilot and the rider have, as departures from
+    rest; `threshold` is in their unit. A cue is there when its magnitude is above the threshold.
 
     - missing: the vehicle's is there, the platform's is not;
     - false: the platform's is there, the vehicle's is not, or has the opposite sign;

@@ -9,10 +9,12 @@ from .run_columns import Array, RunColumns, gathered
 from .statistics import Magnitudes, Spread, distance, length
 
 DIRECTION_FORCE = 0.1 * STANDARD_GRAVITY
-"""Specific force that has a direction worth comparing, m/s^2 (assumed): at a tenth of g the smallest sideways force that is
-felt, 0.17 m/s^2 (`cues.FORCE_THRESHOLD`), already turns it by 10 deg."""
+"""Specific force that has a direction worth comparing, m/s^2 (assumed): at a tenth of g the
+smallest sideways force that is felt, 0.17 m/s^2 (`cues.FORCE_THRESHOLD`), already turns it by 10
+deg."""
 
-_FLIP = np.array([1.0, 1.0, -1.0, -1.0])  # (N, FRD) quaternion to (W, FLU), see rotation.flip_rotation
+# (N, FRD) quaternion to (W, FLU), see rotation.flip_rotation
+_FLIP = np.array([1.0, 1.0, -1.0, -1.0])
 
 
 class Deviation:
@@ -20,8 +22,14 @@ class Deviation:
 
     def __init__(self) -> None:
         """Of no ticks yet."""
-        self._heading: Array | None = None  # that of the vehicle at the start, taken out of its attitude
-        self._force, self._direction, self._rate, self._attitude = Spread(), Spread(), Spread(), Spread()
+        # that of the vehicle at the start, taken out of its attitude
+        self._heading: Array | None = None
+        self._force, self._direction, self._rate, self._attitude = (
+            Spread(),
+            Spread(),
+            Spread(),
+            Spread(),
+        )
         self._extra = Magnitudes()
         self._unlimited = bytearray()  # 1 or 0 a tick: whether the rate error there is extra rate
 
@@ -51,7 +59,9 @@ class Deviation:
         """Those of `extra_rate`."""
         return {
             "extra_rate_rms_rad_s": self._extra.rms,
-            "extra_rate_p99_rad_s": self._rate.quantile(0.99, np.frombuffer(self._unlimited, np.bool_)),
+            "extra_rate_p99_rad_s": self._rate.quantile(
+                0.99, np.frombuffer(self._unlimited, np.bool_)
+            ),
             "extra_rate_max_rad_s": self._extra.largest,
         }
 

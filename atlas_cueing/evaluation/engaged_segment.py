@@ -1,4 +1,7 @@
-"""The part of a live run that is worth figures: a parked platform does not follow its vehicle, and is not meant to."""
+"""The part of a live run that is worth figures.
+
+A parked platform does not follow its vehicle, and is not meant to.
+"""
 
 from collections.abc import Sequence
 from typing import Protocol

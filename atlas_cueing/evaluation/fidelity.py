@@ -13,7 +13,8 @@ from .statistics import Spread
 from .vestibular import CANALS, OTOLITHS, Organ, Sensing
 
 VARIATION = 0.01
-"""Standard deviation below which a signal does not vary, as a share of its axis' threshold (assumed)."""
+"""Standard deviation below which a signal does not vary, as a share of its axis' threshold
+(assumed)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +30,15 @@ class _Quantity:
     organ: Organ
 
 
-_FORCE = _Quantity("force", "m_s2", "vehicle_f_B", "felt_f", (0.0, 0.0, -STANDARD_GRAVITY), FORCE_THRESHOLD, OTOLITHS)
+_FORCE = _Quantity(
+    "force",
+    "m_s2",
+    "vehicle_f_B",
+    "felt_f",
+    (0.0, 0.0, -STANDARD_GRAVITY),
+    FORCE_THRESHOLD,
+    OTOLITHS,
+)
 _RATE = _Quantity("rate", "rad_s", "vehicle_w_B", "felt_w", ZERO, RATE_THRESHOLD, CANALS)
 
 
@@ -82,16 +91,26 @@ class _Sides:
 
     def __init__(self, quantity: _Quantity, dt: float) -> None:
         self._quantity = quantity
-        self._plain, self._perceived = ([_Alike(t, dt) for t in quantity.threshold] for _ in range(2))
-        self._pilot, self._rider = ([Sensing(quantity.organ, dt) for _ in range(3)] for _ in range(2))
+        self._plain, self._perceived = (
+            [_Alike(t, dt) for t in quantity.threshold] for _ in range(2)
+        )
+        self._pilot, self._rider = (
+            [Sensing(quantity.organ, dt) for _ in range(3)] for _ in range(2)
+        )
         self._error = Spread()
 
     def add(self, block: RunColumns) -> None:
         """Take in the ticks that follow."""
-        vehicle, platform = getattr(block, self._quantity.vehicle), getattr(block, self._quantity.platform)
+        vehicle, platform = (
+            getattr(block, self._quantity.vehicle),
+            getattr(block, self._quantity.platform),
+        )
         square = np.zeros(len(block.time))
         for i in range(3):
-            pilot, rider = vehicle[:, i] - self._quantity.rest[i], platform[:, i] - self._quantity.rest[i]
+            pilot, rider = (
+                vehicle[:, i] - self._quantity.rest[i],
+                platform[:, i] - self._quantity.rest[i],
+            )
             self._plain[i].add(pilot, rider)
             pilot, rider = self._pilot[i].sense(pilot), self._rider[i].sense(rider)
             self._perceived[i].add(pilot, rider)
@@ -111,14 +130,21 @@ class _Sides:
         return self._of_axes(f"perceived_{self._quantity.name}", self._perceived)
 
     def _of_axes(self, name: str, axes: "list[_Alike]") -> dict[str, float]:
-        return {key: value for i, axis in enumerate(axes) for key, value in axis.figures(f"{name}_{'xyz'[i]}").items()}
+        return {
+            key: value
+            for i, axis in enumerate(axes)
+            for key, value in axis.figures(f"{name}_{'xyz'[i]}").items()
+        }
 
 
 class _Alike:
     """Likeness of two signals along one axis."""
 
     def __init__(self, threshold: float, dt: float) -> None:
-        self._correlation, self._cues = Correlation(dt, VARIATION * threshold), CueCounter(threshold)
+        self._correlation, self._cues = (
+            Correlation(dt, VARIATION * threshold),
+            CueCounter(threshold),
+        )
 
     def add(self, pilot: Array, rider: Array) -> None:
         """Take in the ticks that follow."""

@@ -6,7 +6,9 @@ from ..signals import StageLimits, WheelLimits
 from .run_columns import Array, RunColumns, Tail, gathered
 from .statistics import Peaks
 
-TOLERANCE = 1e-6  # of a limit: differences over 1 ms of times up to an hour carry rounding of 1e-9, resting on a limit is fair
+# of a limit: differences over 1 ms of times up to an hour carry rounding of 1e-9, resting on a
+# limit is fair
+TOLERANCE = 1e-6
 
 
 class LimitUse:
@@ -33,7 +35,12 @@ class LimitUse:
     def add(self, block: RunColumns) -> None:
         """Take in the ticks that follow."""
         t, speed, acceleration, p, v, a = self._tail.joined(
-            block.time, block.wheel_speed, block.wheel_acceleration, block.motion_p_W, block.motion_v_W, block.motion_a_W
+            block.time,
+            block.wheel_speed,
+            block.wheel_acceleration,
+            block.motion_p_W,
+            block.motion_v_W,
+            block.motion_a_W,
         )
         dt = np.diff(t)
         wheel_slope = _slope(speed, dt)
@@ -55,7 +62,10 @@ class LimitUse:
 
     def figures(self) -> dict[str, float]:
         """Those of `limit_use`."""
-        return {name: float(np.max(self._peaks[name].components / limit)) for name, limit in self._limits.items()}
+        return {
+            name: float(np.max(self._peaks[name].components / limit))
+            for name, limit in self._limits.items()
+        }
 
 
 def limit_use(flight: RunColumns, wheels: WheelLimits, stage: StageLimits) -> dict[str, float]:
@@ -69,9 +79,15 @@ def limit_use(flight: RunColumns, wheels: WheelLimits, stage: StageLimits) -> di
 
 
 def violations(use: dict[str, float], tolerance: float = TOLERANCE) -> list[str]:
-    """One line for each limit that was exceeded, or that is not a number; empty when all were kept."""
-    exceeded = {name: value for name, value in use.items() if not value <= 1.0 + tolerance}  # NaN too
-    return [f"{name} = {value:.9g} of the limit, allowed: at most 1" for name, value in exceeded.items()]
+    """One line for each limit that was exceeded, or that is not a number.
+
+    Empty when all were kept.
+    """
+    # NaN too
+    exceeded = {name: value for name, value in use.items() if not value <= 1.0 + tolerance}
+    return [
+        f"{name} = {value:.9g} of the limit, allowed: at most 1" for name, value in exceeded.items()
+    ]
 
 
 def _slope(values: Array, dt: Array) -> Array:

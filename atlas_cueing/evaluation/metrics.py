@@ -17,7 +17,12 @@ class Metrics:
 
     def __init__(self) -> None:
         """Of no ticks yet."""
-        self._deviation, self._likeness, self._turning, self._effort = Deviation(), Fidelity(), Coriolis(), Actuation()
+        self._deviation, self._likeness, self._turning, self._effort = (
+            Deviation(),
+            Fidelity(),
+            Coriolis(),
+            Actuation(),
+        )
         self._ticks, self._first, self._last = 0, inf, -inf
 
     def add(self, block: RunColumns) -> None:
@@ -44,11 +49,14 @@ class Metrics:
 
 
 def metrics(flight: RunColumns) -> dict[str, float]:
-    """All figures of a flight, the most telling first, each with its unit in the name; correlations and turns have none.
+    """All figures of a flight, the most telling first, each with its unit in the name.
 
-    Shares are 0 to 1 of the ticks. The definitions stand with the functions: `deviation` (force, direction, rate and attitude
-    error), `cost`, `extra_rate`, `likeness` (perceived errors; correlation, delay, missing, false, scaled cues of each axis),
-    `turning` (Coriolis exposure, net turns), `effort` (smoothing and actuators); ticks and duration_s close the list.
+    Correlations and turns have none.
+
+    Shares are 0 to 1 of the ticks. The definitions stand with the functions: `deviation` (force,
+    direction, rate and attitude error), `cost`, `extra_rate`, `likeness` (perceived errors;
+    correlation, delay, missing, false, scaled cues of each axis), `turning` (Coriolis exposure, net
+    turns), `effort` (smoothing and actuators); ticks and duration_s close the list.
 
     Every figure is a finite float when the columns are finite; a flight without ticks gives zeros.
     """

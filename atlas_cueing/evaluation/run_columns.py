@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 BLOCK_TICKS = 7168
-"""Ticks a block: its temporaries of 57 kB stay in the cache, they fill whole rows of `vestibular.Sensing`, and a product of
-matrices of them is small enough for BLAS not to wake a thread for each core."""
+"""Ticks a block: its temporaries of 57 kB stay in the cache, they fill whole rows of
+`vestibular.Sensing`, and a product of matrices of them is small enough for BLAS not to wake a
+thread for each core."""
 
 
 class Columns(Protocol):
@@ -28,7 +29,8 @@ class Columns(Protocol):
 class RunColumns:
     """All ticks of a run, one row each; SI and rad, names and frames as in `signals.states`.
 
-    `felt_f` and `felt_w` are what the rider's head feels, in cabin FRD axes; `limited` is (n, 2) of 0 or 1: wheels, stage.
+    `felt_f` and `felt_w` are what the rider's head feels, in cabin FRD axes; `limited` is (n, 2) of
+    0 or 1: wheels, stage.
     """
 
     time: Array
@@ -71,7 +73,9 @@ class RunColumns:
             motion_p_W=log.vector("/motion", "p"),
             motion_v_W=log.vector("/motion", "v"),
             motion_a_W=log.vector("/motion", "a"),
-            limited=np.stack([log.column("/motion", f"{part}_limited") for part in ("wheels", "stage")]).T,
+            limited=np.stack(
+                [log.column("/motion", f"{part}_limited") for part in ("wheels", "stage")]
+            ).T,
             wheel_speed=log.vector("/wheels", "w"),
             wheel_acceleration=log.vector("/wheels", "a"),
             felt_f=log.vector("/felt", "f"),
@@ -86,11 +90,19 @@ class RunColumns:
         """The flight in blocks of so many ticks, counted from its start, each component of each column contiguous."""
         for start in range(0, len(self.time), ticks):
             block = self.rows(slice(start, start + ticks))
-            yield RunColumns(**{field.name: np.asfortranarray(getattr(block, field.name)) for field in fields(self)})
+            yield RunColumns(
+                **{
+                    field.name: np.asfortranarray(getattr(block, field.name))
+                    for field in fields(self)
+                }
+            )
 
 
 class Figures(Protocol):
-    """Figures of a flight that comes block by block; only quantiles need memory that grows with it (`statistics.Spread`)."""
+    """Figures of a flight that comes block by block.
+
+    Only quantiles need memory that grows with it (`statistics.Spread`).
+    """
 
     def add(self, block: RunColumns) -> None:
         """Take in the ticks that follow, at least one."""
@@ -100,7 +112,10 @@ class Figures(Protocol):
 
 
 def gathered(figures: Figures, flight: RunColumns) -> dict[str, float]:
-    """The figures of a whole flight, taken in block by block: to the last bit those of its log, read in the same blocks."""
+    """The figures of a whole flight, taken in block by block.
+
+    To the last bit those of its log, read in the same blocks.
+    """
     for block in flight.blocks():
         figures.add(block)
     return figures.figures()

@@ -1,4 +1,7 @@
-"""Figures of columns that come block by block: of no values at all they are zero, so that every figure is a number."""
+"""Figures of columns that come block by block.
+
+Of no values at all they are zero, so that every figure is a number.
+"""
 
 from math import isnan
 
@@ -29,7 +32,9 @@ class Peaks:
     def add(self, v: Array) -> None:
         """Take in the rows that follow, of which there may be none."""
         if len(v):
-            self.components = np.maximum(self.components, np.maximum(np.max(v, axis=0), 0.0 - np.min(v, axis=0)))
+            self.components = np.maximum(
+                self.components, np.maximum(np.max(v, axis=0), 0.0 - np.min(v, axis=0))
+            )
 
     @property
     def largest(self) -> float:
@@ -51,7 +56,8 @@ class Magnitudes:
         if len(x):
             self.count += len(x)
             self.largest = float(np.maximum(self.largest, np.max(x)))  # NaN stays NaN
-            self._squares += float(np.einsum("i,i->", x, x))  # vdot would wake a thread for each core
+            # vdot would wake a thread for each core
+            self._squares += float(np.einsum("i,i->", x, x))
 
     @property
     def rms(self) -> float:
@@ -62,8 +68,8 @@ class Magnitudes:
 class Spread(Magnitudes):
     """Magnitudes with quantiles, for which every value is kept, in single precision.
 
-    That is all that grows with a flight: 4 bytes a tick, 14 MB for an hour at 1 kHz. A quantile is good to 6e-8 of itself;
-    what is larger than 3e38 counts as infinite.
+    That is all that grows with a flight: 4 bytes a tick, 14 MB for an hour at 1 kHz. A quantile is
+    good to 6e-8 of itself; what is larger than 3e38 counts as infinite.
     """
 
     def __init__(self) -> None:
@@ -78,7 +84,10 @@ class Spread(Magnitudes):
             self._kept += x.astype(np.float32).data
 
     def quantile(self, share: float, counted: NDArray[np.bool_] | None = None) -> float:
-        """The value that this share (0 to 1) of the values does not exceed, interpolated; of those `counted` (count,) only."""
+        """The value that this share (0 to 1) of the values does not exceed, interpolated.
+
+        Of those `counted` (count,) only.
+        """
         kept = np.frombuffer(self._kept, np.float32)
         values = kept.copy() if counted is None else kept[counted]
         if not len(values) or isnan(self.largest):
@@ -92,4 +101,8 @@ class Spread(Magnitudes):
 
     def figures(self, name: str, unit: str) -> dict[str, float]:
         """Rms, 95 % quantile and maximum: `<name>_rms_<unit>`, `<name>_p95_<unit>`, `<name>_max_<unit>`."""
-        return {f"{name}_rms_{unit}": self.rms, f"{name}_p95_{unit}": self.quantile(0.95), f"{name}_max_{unit}": self.largest}
+        return {
+            f"{name}_rms_{unit}": self.rms,
+            f"{name}_p95_{unit}": self.quantile(0.95),
+            f"{name}_max_{unit}": self.largest,
+        }

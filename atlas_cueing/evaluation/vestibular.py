@@ -1,7 +1,7 @@
 """What the organs of balance make of angular rate and of specific force.
 
-Models of Telban & Cardullo, "Motion Cueing Algorithm Development: Human-Centered Linear and Nonlinear Approaches",
-NASA/CR-2005-213747, without their thresholds:
+Models of Telban & Cardullo, "Motion Cueing Algorithm Development: Human-Centered Linear and
+Nonlinear Approaches", NASA/CR-2005-213747, without their thresholds:
 
     canals    5.73 * 80 s^2 / ((5.73 s + 1)(80 s + 1))       sensed over true angular rate
     otoliths  0.4 (10 s + 1) / ((5 s + 1)(0.016 s + 1))      sensed over true specific force
@@ -15,7 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from .run_columns import Array
 
-_TICKS = 32  # that one row of a matrix product filters; the lags' states are carried from row to row
+# that one row of a matrix product filters; the lags' states are carried from row to row
+_TICKS = 32
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,12 +57,15 @@ class Organ:
 class Sensing:
     """An organ at work on a signal that comes block by block.
 
-    A recursion z' = decay z + drive u a lag, run as one matrix product a few ticks; scipy.signal.lfilter does the same and
-    takes two seconds to import.
+    A recursion z' = decay z + drive u a lag, run as one matrix product a few ticks;
+    scipy.signal.lfilter does the same and takes two seconds to import.
     """
 
     def __init__(self, organ: Organ, dt: float) -> None:
-        """The organ after an eternity of the first value that will come; ticks are `dt` (s) apart."""
+        """The organ after an eternity of the first value that will come.
+
+        Ticks are `dt` (s) apart.
+        """
         self._decay, drive, self._steady, direct = organ.discrete(dt)
         gains = np.array([gain for gain, _ in organ.lags])
         powers = self._decay ** np.arange(_TICKS)[:, None]  # (ticks, lags)
@@ -69,7 +73,8 @@ class Sensing:
         steps = np.subtract.outer(np.arange(_TICKS), np.arange(_TICKS))
         self._impulses = np.where(steps > 0, 0.0, kernel[-steps])  # (from, to) tick
         self._readout = (powers * gains).T
-        self._weights = powers[::-1] * drive  # of the inputs in the lags' states behind the last of them
+        # of the inputs in the lags' states behind the last of them
+        self._weights = powers[::-1] * drive
         self._state: Array | None = None
 
     def sense(self, signal: Array) -> Array:
@@ -106,7 +111,13 @@ def _canals(short: float, long: float) -> Organ:
 
 def _otoliths(gain: float, lead: float, long: float, short: float) -> Organ:
     """Organ gain (lead s + 1) / ((long s + 1)(short s + 1))."""
-    return Organ(0.0, ((gain * (long - lead) / (long - short), long), (gain * (short - lead) / (short - long), short)))
+    return Organ(
+        0.0,
+        (
+            (gain * (long - lead) / (long - short), long),
+            (gain * (short - lead) / (short - long), short),
+        ),
+    )
 
 
 CANALS = _canals(5.73, 80.0)

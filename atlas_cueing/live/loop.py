@@ -1,8 +1,9 @@
 """The real-time loop: one tick a period against the clock.
 
-A tick belongs to the deadline start + slot dt. Deadlines that pass before their tick can begin are missed: they are counted and
-left out, never made up by running twice. The platform's own time goes on by dt a tick, so that its motion is even whatever the
-clock does; /timing keeps the real time beside it.
+A tick belongs to the deadline start + slot dt. Deadlines that pass before their tick can begin are
+missed: they are counted and left out, never made up by running twice. The platform's own time goes
+on by dt a tick, so that its motion is even whatever the clock does; /timing keeps the real time
+beside it.
 """
 
 from collections.abc import Sequence
@@ -16,7 +17,8 @@ from .control.controller import LiveController
 from .control.guard import Command
 from .timing import LoopTiming
 
-LEAD = 0.008  # s from a tick's deadline to the time its set point is for; what a drive may use up of it is jitter
+# s from a tick's deadline to the time its set point is for; what a drive may use up of it is jitter
+LEAD = 0.008
 
 
 class Output(Protocol):
@@ -32,7 +34,9 @@ class Output(Protocol):
 class Drives(Protocol):
     """Whatever takes commands to the drives without ever making the loop wait."""
 
-    def send(self, sequence: int, time: float, valid_from: float, state: int, command: Command) -> None:
+    def send(
+        self, sequence: int, time: float, valid_from: float, state: int, command: Command
+    ) -> None:
         """One set point; valid_from in s of the loop's clock."""
 
 
@@ -48,7 +52,11 @@ class Loop:
         drives: Sequence[Drives],
         origin: float | None = None,
     ) -> None:
-        """Tick dt in s. `origin`, s of the clock, is where the log counts its real time from; the loop's start by default."""
+        """Tick dt in s.
+
+        `origin`, s of the clock, is where the log counts its real time from; the loop's start by
+        default.
+        """
         self._dt, self._clock, self._conductor, self._origin = dt, clock, conductor, origin
         self._outputs, self._drives = outputs, drives
         self._missed_in_a_row = 0
@@ -86,7 +94,15 @@ class Loop:
         self.timing.lateness.add(lateness)
         self.timing.cost.add(cost)
         age = self._conductor.intake.age
-        row = TickTiming(self.time, elapsed, lateness, cost, age if isfinite(age) else -1.0, self.timing.missed, state)
+        row = TickTiming(
+            self.time,
+            elapsed,
+            lateness,
+            cost,
+            age if isfinite(age) else -1.0,
+            self.timing.missed,
+            state,
+        )
         self._tell()
         for output in self._outputs:
             output.tick(tick, row)

@@ -11,8 +11,8 @@ from .input.vehicle_source import VehicleSource
 def open_source(scenario: Scenario) -> Source:
     """A new source, ready to be read; close it after use.
 
-    Raises InputError for what cannot fly (a model, log or port that is not to be had), LogError for a damaged log, and
-    VehicleError for a model that fails in its first state.
+    Raises InputError for what cannot fly (a model, log or port that is not to be had), LogError for
+    a damaged log, and VehicleError for a model that fails in its first state.
     """
     flight = scenario.live_flight
     match flight:

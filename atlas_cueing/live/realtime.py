@@ -7,7 +7,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 
-FIFO_PRIORITY = 80  # of 1 to 99; below the kernel's own threads for interrupts on most systems (50) it would wait for them
+# of 1 to 99; below the kernel's own threads for interrupts on most systems (50) it would wait for
+# them
+FIFO_PRIORITY = 80
 _MCL_CURRENT, _MCL_FUTURE = 1, 2  # sys/mman.h
 
 
@@ -21,10 +23,13 @@ class RealtimeScheduling:
 
 @contextmanager
 def punctual(priority: bool) -> Iterator[RealtimeScheduling]:
-    """Everything collected, frozen and collection off while inside; with `priority` the rest is asked for as well.
+    """Everything collected, frozen and collection off while inside.
 
-    Priority, memory, affinity and collection are as before afterwards; only SCHED_RESET_ON_FORK stays where the system does
-    not let it go (sched(7)). What the system refuses is told and does no harm.
+    With `priority` the rest is asked for as well.
+
+    Priority, memory, affinity and collection are as before afterwards; only SCHED_RESET_ON_FORK
+    stays where the system does not let it go (sched(7)). What the system refuses is told and does
+    no harm.
     """
     found = RealtimeScheduling()
     scheduler, affinity = os.sched_getscheduler(0), os.sched_getaffinity(0)

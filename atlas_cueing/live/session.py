@@ -1,4 +1,7 @@
-"""A live run from a scenario to a finished log: everything put together, run, and taken apart again."""
+"""A live run from a scenario to a finished log.
+
+Everything put together, run, and taken apart again.
+"""
 
 import time
 from collections.abc import Callable, Sequence
@@ -26,15 +29,19 @@ from .realtime import RealtimeScheduling, collections, punctual
 RATES = (100.0, 1000.0)  # Hz, lowest and highest of the loop
 DEFAULT_RATE = 500.0  # Hz
 RING_SECONDS = 10.0  # that the recorder may be held up without a loss
-MOST_EVALUATED = 600_000  # ticks; the figures of a longer run are left to review (20 minutes at 500 Hz, some 400 MB)
+# ticks; the figures of a longer run are left to review (20 minutes at 500 Hz, some 400 MB)
+MOST_EVALUATED = 600_000
 _WARM_UP = 200  # ticks flown for nothing: first calls are slow
 
 
 @dataclass(frozen=True, slots=True)
 class LiveOptions:
-    """How to run: loop rate in Hz, duration in s until parking; `attended` runs wait for their operator's buttons.
+    """How to run: loop rate in Hz, duration in s until parking.
 
-    priority: ask the system for SCHED_FIFO, locked memory and a core of its own. announce: tell changes of state on stderr.
+    `attended` runs wait for their operator's buttons.
+
+    priority: ask the system for SCHED_FIFO, locked memory and a core of its own. announce: tell
+        changes of state on stderr.
     """
 
     rate: float = DEFAULT_RATE
@@ -86,12 +93,21 @@ class LiveResult:
 
 
 class LiveSession:
-    """One live run. Followers of `ring`, and whoever presses `buttons`, have to be forked between `__init__` and `run`."""
+    """One live run.
+
+    Followers of `ring`, and whoever presses `buttons`, have to be forked between `__init__` and
+    `run`.
+    """
 
     def __init__(self, scenario: Scenario, log: str | Path, options: LiveOptions) -> None:
-        """Load everything. Raises InputError (nothing was written) when the scenario cannot fly live or at that rate."""
+        """Load everything.
+
+        Raises InputError (nothing was written) when the scenario cannot fly live or at that rate.
+        """
         if not RATES[0] <= options.rate <= RATES[1]:
-            raise InputError(f"--rate {options.rate:g} Hz, allowed: {RATES[0]:g} <= rate <= {RATES[1]:g}")
+            raise InputError(
+                f"--rate {options.rate:g} Hz, allowed: {RATES[0]:g} <= rate <= {RATES[1]:g}"
+            )
         self._scenario, self._log, self._options = scenario, Path(log), options
         self._dt = 1.0 / options.rate
         self._pipeline = build_pipeline(scenario, self._dt)
@@ -99,14 +115,20 @@ class LiveSession:
         self.ring: Ring = live_ring(RING_SECONDS, options.rate)
         self.buttons = OperatorButtons()
         self._clock = MonotonicClock()
-        self._origin, self.started_ns = self._clock.now(), time.time_ns()  # one moment, by the loop's clock and by the wall's
+        # one moment, by the loop's clock and by the wall's
+        self._origin, self.started_ns = self._clock.now(), time.time_ns()
 
     def run(self, drives: Sequence[Drives] = (), signals: Callable[[], int] = int) -> LiveResult:
-        """Fly until the run is over, and finish the log; `signals` tells how often the process has been asked to end."""
+        """Fly until the run is over, and finish the log.
+
+        `signals` tells how often the process has been asked to end.
+        """
         with ExitStack() as stack:
             stack.enter_context(closing(self._source))
             recorder = RecorderProcess(self.ring, self._recorder(), announce=self._options.announce)
-            asked = OperatorInputs(self.buttons.edges, signals, self._options.duration, self._options.attended)
+            asked = OperatorInputs(
+                self.buttons.edges, signals, self._options.duration, self._options.attended
+            )
             conductor = self._conductor(asked)
             writer = LiveWriter(self.ring)
             loop = Loop(self._dt, self._clock, conductor, [writer], drives, self._origin)
@@ -139,7 +161,12 @@ class LiveSession:
         platform = self._scenario.platform
         limits = platform.stage_limit_values()
         self._warm_up()
-        ride = PlatformController(lambda: build_pipeline(self._scenario, self._dt), platform.geometry().sphere_from_wheels, limits.travel, self._dt)
+        ride = PlatformController(
+            lambda: build_pipeline(self._scenario, self._dt),
+            platform.geometry().sphere_from_wheels,
+            limits.travel,
+            self._dt,
+        )
         guard = Guard(self._dt, platform.wheel_limit_values(), limits)
         conductor = LiveController(ride, guard, self._source, wishes)
         if self._options.engage:
@@ -164,8 +191,14 @@ class LiveSession:
 
     def _metadata(self) -> dict[str, str]:
         scenario = self._scenario
-        versions = {f"{name}_version": version(name) for name in ("atlas_cueing", "jsbsim", "ruckig")}
-        names = {"scenario": scenario.name, "method": scenario.file.cueing.method, "platform": scenario.platform.name}
+        versions = {
+            f"{name}_version": version(name) for name in ("atlas_cueing", "jsbsim", "ruckig")
+        }
+        names = {
+            "scenario": scenario.name,
+            "method": scenario.file.cueing.method,
+            "platform": scenario.platform.name,
+        }
         return {**names, **versions, "live": "true", "rate_hz": f"{self._options.rate:g}"}
 
     def _evaluation(self, ticks: int) -> Evaluation:

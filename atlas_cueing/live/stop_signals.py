@@ -1,4 +1,7 @@
-"""SIGINT and SIGTERM as a count that the loop looks at: the first parks, the second stops at once."""
+"""SIGINT and SIGTERM as a count that the loop looks at.
+
+The first parks, the second stops at once.
+"""
 
 import signal
 from collections.abc import Iterator

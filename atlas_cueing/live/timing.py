@@ -3,7 +3,8 @@
 from array import array
 from collections.abc import Sequence
 
-_BINS = 100_000  # of a microsecond each; whatever is longer counts as 0.1 s, and the maximum is kept apart
+# of a microsecond each; whatever is longer counts as 0.1 s, and the maximum is kept apart
+_BINS = 100_000
 _SHARES = {"p50": 0.5, "p99": 0.99, "p999": 0.999}
 
 
@@ -48,6 +49,9 @@ class LoopTiming:
         figures["most_missed_in_a_row"] = self.longest_row
         figures["garbage_collections"] = self.collections
         for name, histogram in (("lateness", self.lateness), ("tick_cost", self.cost)):
-            figures |= {f"{name}_{label}_us": round(1e6 * histogram.percentile(share)) for label, share in _SHARES.items()}
+            figures |= {
+                f"{name}_{label}_us": round(1e6 * histogram.percentile(share))
+                for label, share in _SHARES.items()
+            }
             figures[f"{name}_max_us"] = round(1e6 * histogram.maximum, 1)
         return figures

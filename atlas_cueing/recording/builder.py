@@ -77,15 +77,21 @@ class LogBuilder:
         """Keep a record of metadata."""
         self._metadata[name] = dict(pairs)
 
-    def add_messages(self, data: bytes, index: Starts, *, checked: bool = False, all_or_none: bool = False) -> None:
+    def add_messages(
+        self, data: bytes, index: Starts, *, checked: bool = False, all_or_none: bool = False
+    ) -> None:
         """Read the records of a chunk, or of a stretch of messages outside of chunks.
 
         index: offsets of the messages by channel, as the log has them; may be empty or wrong.
         checked: whether a checksum of their own was right.
-        all_or_none: whether nothing is kept where a message cannot be read; else what came before it may be.
-        Raises LogError where a message cannot be read.
+        all_or_none: whether nothing is kept where a message cannot be read; else what came before
+        it may be. Raises LogError where a message cannot be read.
         """
-        found = {channel: starts for channel, starts in message_starts(data, index, self._describe).items() if len(starts)}
+        found = {
+            channel: starts
+            for channel, starts in message_starts(data, index, self._describe).items()
+            if len(starts)
+        }
         decoded = (self._decoded(channel, data, starts) for channel, starts in found.items())
         for keep in list(decoded) if all_or_none else decoded:
             keep()
@@ -99,16 +105,28 @@ class LogBuilder:
             found = self._counts.get(channel, 0)
             if found < count and channel in self._channels:
                 topic = self._channels[channel].topic
-                raise LogError(f"its statistics have {count} messages of {topic} (channel {channel}); it holds {found}")
+                raise LogError(
+                    f"its statistics have {count} messages of {topic} (channel {channel}); it holds"
+                    f" {found}"
+                )
 
     def log(self) -> Log:
-        """All of it. Raises LogError when nothing of it is ours, or none of the messages that are can be read."""
+        """All of it.
+
+        Raises LogError when nothing of it is ours, or none of the messages that are can be read.
+        """
         notes = [*self._unread(), *_left_out(self._by_topic(self._tables))]
         if self._unchecked and not self.data_checked:
-            notes.append("the messages have no checksum, so that damage to their numbers cannot be found")
+            notes.append(
+                "the messages have no checksum, so that damage to their numbers cannot be found"
+            )
         if RUN_METADATA not in self._metadata and not self._is_ours():
-            raise LogError(f"this is no log of atlas_cueing: it has no metadata record {RUN_METADATA!r}")
-        tables = {topic: self._table(of_topic) for topic, of_topic in self._by_topic(self._tables).items()}
+            raise LogError(
+                f"this is no log of atlas_cueing: it has no metadata record {RUN_METADATA!r}"
+            )
+        tables = {
+            topic: self._table(of_topic) for topic, of_topic in self._by_topic(self._tables).items()
+        }
         poses = tables.pop(TF, None)
         metadata = self._metadata.get(RUN_METADATA, {})
         states = merged_states(list(self._states.values()))
@@ -130,7 +148,9 @@ class LogBuilder:
         decoder = self._decoders.get(channel)
         match decoder:
             case None:
-                raise LogError(f"there are messages of channel {channel}, which the log does not describe")
+                raise LogError(
+                    f"there are messages of channel {channel}, which the log does not describe"
+                )
             case StateDecoder():
                 states, when = decoder.decode(data, starts)
                 return lambda: self._keep_states(channel, states, when)
@@ -156,7 +176,10 @@ class LogBuilder:
         return by_topic
 
     def _unread(self) -> list[str]:
-        """A line for each channel with messages that are not read. Raises LogError when a topic of ours has no others."""
+        """A line for each channel with messages that are not read.
+
+        Raises LogError when a topic of ours has no others.
+        """
         read = {self._channels[channel].topic for channel in (*self._tables, *self._states)}
         lines = []
         for number, why in self._decoders.items():
@@ -177,7 +200,11 @@ def _left_out(by_topic: Mapping[str, Sequence[Growing]]) -> list[str]:
     lines = []
     for topic, channels in by_topic.items():
         common = common_fields(channels)
-        rest = dict.fromkeys(name for each in channels for name in each.fields if name not in common)
+        rest = dict.fromkeys(
+            name for each in channels for name in each.fields if name not in common
+        )
         if rest:
-            lines.append(f"{topic}: only some of its channels have {', '.join(rest)}, which is left out")
+            lines.append(
+                f"{topic}: only some of its channels have {', '.join(rest)}, which is left out"
+            )
     return lines

@@ -15,13 +15,17 @@ from .schemas import TF
 from .transforms import RATE_HZ, put_transforms, transform_template
 from .wire import Array, Records, Times, flat_dtype, flat_template, put, record_content, repeat
 
-_STARTS = np.cumsum([0] + [len(topic.fields) for topic in TOPICS])  # of each topic in a row; /felt comes last
+# of each topic in a row; /felt comes last
+_STARTS = np.cumsum([0] + [len(topic.fields) for topic in TOPICS])
 ROW = int(_STARTS[-2])  # numbers in a row of `signals.tick_row`
 LIVE_ROW = ROW + len(TIMING.fields)  # in a live one: the fields of /timing follow
 ELAPSED = ROW + TIMING.fields.index("elapsed_s")  # its place in a live row
 _VEHICLE_F = slice(8, 11)
 _MOTION = int(_STARTS[2])  # then time, q, w, alpha, p, v, a
-_Q, _W, _ALPHA, _P, _A = (slice(_MOTION + start, _MOTION + end) for start, end in ((1, 5), (5, 8), (8, 11), (11, 14), (17, 20)))
+_Q, _W, _ALPHA, _P, _A = (
+    slice(_MOTION + start, _MOTION + end)
+    for start, end in ((1, 5), (5, 8), (8, 11), (11, 14), (17, 20))
+)
 
 
 class Extra(NamedTuple):
@@ -61,19 +65,29 @@ class ChunkEncoder:
         self._channels = channels
         sizes = {t.name: len(t.fields) for t in topics}
         ends = np.cumsum(list(sizes.values())).tolist()
-        self._columns = {name: slice(end - sizes[name], end) for name, end in zip(sizes, ends, strict=True) if name in channels}
+        self._columns = {
+            name: slice(end - sizes[name], end)
+            for name, end in zip(sizes, ends, strict=True)
+            if name in channels
+        }
         sizes = {name: size for name, size in sizes.items() if name in channels}
-        self._template = np.zeros((), np.dtype([(name, flat_dtype(size)) for name, size in sizes.items()]))
+        self._template = np.zeros(
+            (), np.dtype([(name, flat_dtype(size)) for name, size in sizes.items()])
+        )
         self._offsets: dict[str, int] = {}  # of each message in a tick
         offset = 0
         for name, size in sizes.items():
             self._template[name] = flat_template(channels[name], size)
             self._offsets[name] = offset
             offset += flat_dtype(size).itemsize
-        self._records = repeat(self._template, 0)  # used again for every chunk, and no memory asked for anew
+        # used again for every chunk, and no memory asked for anew
+        self._records = repeat(self._template, 0)
 
     def encode(self, ticks: Array, times: Times, statuses: Sequence[Extra]) -> EncodedChunk:
-        """Chunk of ticks (n, fields of all topics) in order of time, with log times (n,) in ns; /tf is made from them."""
+        """Chunk of ticks (n, fields of all topics) in order of time, with log times (n,) in ns.
+
+        /tf is made from them.
+        """
         records = self._encode_ticks(ticks, times)
         extras = self._transforms(ticks, times)
         if statuses:
@@ -94,24 +108,42 @@ class ChunkEncoder:
         """A /tf message after each tick that is the first one in its sixtieth of a second."""
         if self._tf_channel is None or not len(ticks):
             return []
-        slots = np.floor(ticks[:, 0] * RATE_HZ + 1e-6)  # a tick due at k/60 s may be a rounding error early
+        # a tick due at k/60 s may be a rounding error early
+        slots = np.floor(ticks[:, 0] * RATE_HZ + 1e-6)
         due = np.flatnonzero(np.diff(slots, prepend=self._tf_slot))
         self._tf_slot = float(slots[-1])
         records = repeat(self._tf_template, len(due))
         put_transforms(records, times[due], ticks[due, _Q], ticks[due, _P])
         data, size = records.tobytes(), records.itemsize
         each = [data[start : start + size] for start in range(0, len(data), size)]
-        return list(map(Extra, (due + 1).tolist(), itertools.repeat(self._tf_channel), times[due].tolist(), each))
+        return list(
+            map(
+                Extra,
+                (due + 1).tolist(),
+                itertools.repeat(self._tf_channel),
+                times[due].tolist(),
+                each,
+            )
+        )
 
-    def _index(self, ticks: Records, times: Times, extras: list[Extra]) -> dict[int, NDArray[np.uint64]]:
+    def _index(
+        self, ticks: Records, times: Times, extras: list[Extra]
+    ) -> dict[int, NDArray[np.uint64]]:
         """Where each message starts: a tick is pushed back by the extra messages before it, and the other way round."""
-        places, channels, log_times, records = zip(*extras, strict=True) if extras else ((), (), (), ())
+        places, channels, log_times, records = (
+            zip(*extras, strict=True) if extras else ((), (), (), ())
+        )
         sizes = np.cumsum([0, *map(len, records)])
         before, of_channel = np.array(places, dtype=np.int64), np.array(channels, dtype=np.int64)
-        bases = np.arange(len(ticks)) * ticks.itemsize + sizes[np.searchsorted(before, np.arange(len(ticks)), side="right")]
+        bases = (
+            np.arange(len(ticks)) * ticks.itemsize
+            + sizes[np.searchsorted(before, np.arange(len(ticks)), side="right")]
+        )
         index = {}
         for name, offset in self._offsets.items() if len(ticks) else ():
-            index[self._channels[name]] = np.stack([times, (bases + offset).astype(np.uint64)], axis=1)
+            index[self._channels[name]] = np.stack(
+                [times, (bases + offset).astype(np.uint64)], axis=1
+            )
         starts = (before * ticks.itemsize + sizes[:-1]).astype(np.uint64)
         entries = np.stack([np.array(log_times, dtype=np.uint64), starts], axis=1)
         for channel in sorted(set(channels)):

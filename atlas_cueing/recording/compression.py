@@ -1,6 +1,7 @@
 """What a chunk holds, unpacked within bounds: a file of 33 kB can unpack to a GiB.
 
-MCAP names two compressions, zstd and lz4, and none (https://mcap.dev/spec/registry#well-known-compression-formats).
+MCAP names two compressions, zstd and lz4, and none
+(https://mcap.dev/spec/registry#well-known-compression-formats).
 """
 
 import zlib
@@ -26,7 +27,9 @@ def unpack(chunk: Chunk) -> bytes:
     """
     size = chunk.uncompressed_size
     if chunk.compression not in _UNPACK:
-        raise CompressionError(f"a chunk has compression {chunk.compression!r}, allowed: 'zstd', 'lz4' or none")
+        raise CompressionError(
+            f"a chunk has compression {chunk.compression!r}, allowed: 'zstd', 'lz4' or none"
+        )
     if size > MAX_CHUNK:
         raise LogError(f"a chunk unpacks to {size} bytes, allowed: at most {MAX_CHUNK}")
     try:
@@ -42,13 +45,16 @@ def unpack(chunk: Chunk) -> bytes:
 def check_crc(what: str, expected: int, found: int) -> None:
     """Compare checksums; 0 is the format's word for "not available". Raises LogError."""
     if expected not in (0, found):
-        raise LogError(f"the checksum of the {what} is wrong ({found:#010x} instead of {expected:#010x})")
+        raise LogError(
+            f"the checksum of the {what} is wrong ({found:#010x} instead of {expected:#010x})"
+        )
 
 
 def _zstd(data: bytes, size: int) -> bytes:
     """At most one byte more than `size`."""
     if zstandard.frame_content_size(data) == size:  # as in our own logs
-        # the decompressor believes the size in the frame, so it is asked for it only when it is right
+        # the decompressor believes the size in the frame, so it is asked for it only when it is
+        # right
         return zstandard.ZstdDecompressor().decompress(data)
     decompressor = zstandard.ZstdDecompressor(max_window_size=_WINDOW)
     with decompressor.stream_reader(data, read_across_frames=True) as reader:

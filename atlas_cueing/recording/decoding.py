@@ -1,8 +1,8 @@
 """From message records to numbers and states, in our fixed layout or any that protobuf allows.
 
-Our own messages are read thousands at a time (`wire`, `transforms`). Other writers leave zeros out, use
-other field numbers or narrower types, or add fields: their messages are decoded one by one with the
-schema that the log brings, and fields are found by name.
+Our own messages are read thousands at a time (`wire`, `transforms`). Other writers leave zeros out,
+use other field numbers or narrower types, or add fields: their messages are decoded one by one with
+the schema that the log brings, and fields are found by name.
 """
 
 from collections.abc import Callable
@@ -51,7 +51,9 @@ class NumberDecoder:
             if values is not None and np.all(records["length"] == records.itemsize - RECORD_HEAD):
                 return values, records["log_time"].copy()
         numbers = [self._row(message) for message in self._message.all(data, starts)]
-        return np.array(numbers, dtype=np.float64).reshape(-1, len(self.fields)), log_times_of(data, starts)
+        return np.array(numbers, dtype=np.float64).reshape(-1, len(self.fields)), log_times_of(
+            data, starts
+        )
 
 
 class PoseDecoder:
@@ -64,14 +66,20 @@ class PoseDecoder:
         self._message = _Messages(TF, schema)
 
     def decode(self, data: bytes, starts: Starts) -> tuple[Array, Times]:
-        """Poses (n, 7) and log times (n,), ns. Raises LogError as `NumberDecoder`, and for other poses."""
+        """Poses (n, 7) and log times (n,), ns.
+
+        Raises LogError as `NumberDecoder`, and for other poses.
+        """
         records = _records(data, starts, transform_template(0).dtype)
         values = take_transforms(records) if records is not None else None
         if records is not None and values is not None:
             return values, records["log_time"].copy()
         found = [pose_of(message) for message in self._message.all(data, starts)]
         ours = np.array([pose is not None for pose in found], dtype=np.bool_)
-        return np.array([pose for pose in found if pose]).reshape(-1, len(POSE)), log_times_of(data, starts)[ours]
+        return (
+            np.array([pose for pose in found if pose]).reshape(-1, len(POSE)),
+            log_times_of(data, starts)[ours],
+        )
 
 
 class StateDecoder:
@@ -83,7 +91,10 @@ class StateDecoder:
         self._message.prepare()  # a description that makes no sense is found before any message
 
     def decode(self, data: bytes, starts: Starts) -> tuple[list[Status], Times]:
-        """States and log times (n,), ns. Raises LogError as `NumberDecoder`, and for other types."""
+        """States and log times (n,), ns.
+
+        Raises LogError as `NumberDecoder`, and for other types.
+        """
         found = [_status(message) for message in self._message.all(data, starts)]
         return found, log_times_of(data, starts)
 
@@ -94,10 +105,18 @@ Decoder: TypeAlias = NumberDecoder | PoseDecoder | StateDecoder
 def decoder_of(topic: str, encoding: str, schema: Schema | None) -> Decoder | str:
     """What reads the messages of a channel, or why they are not read, in a word or two."""
     if schema is None or encoding != "protobuf" or schema.encoding != "protobuf":
-        told = encoding if schema is None or schema.encoding in ("", encoding) else f"{encoding}, {schema.encoding}"
+        told = (
+            encoding
+            if schema is None or schema.encoding in ("", encoding)
+            else f"{encoding}, {schema.encoding}"
+        )
         return f"encoding {told!r}, allowed: 'protobuf'"
     if topic == TF:
-        return PoseDecoder(schema) if schema.name.endswith("FrameTransforms") else f"schema {schema.name!r}"
+        return (
+            PoseDecoder(schema)
+            if schema.name.endswith("FrameTransforms")
+            else f"schema {schema.name!r}"
+        )
     if topic == STATUS:
         return StateDecoder(schema)
     known = set(FIELDS.get(topic, ()))
@@ -124,7 +143,9 @@ class _Messages:
 
     def all(self, data: bytes, starts: Starts) -> list[Any]:
         """Every message at `starts`, decoded. Raises LogError."""
-        return [self._decoded(data[slice(*record_content(data, start))]) for start in starts.tolist()]
+        return [
+            self._decoded(data[slice(*record_content(data, start))]) for start in starts.tolist()
+        ]
 
     def prepare(self) -> Callable[[bytes], Any]:
         """What parses a message."""

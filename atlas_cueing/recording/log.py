@@ -36,9 +36,9 @@ class Status:
 class Log:
     """A complete log of one run.
 
-    `tables` has one Table a topic of doubles, `metadata` is the record `atlas.run`, `attachments` are files by name,
-    `transforms` what /tf tells: position of the stage and orientation of the cabin, `notes` what in
-    the file was not read or not checked, a line each.
+    `tables` has one Table a topic of doubles, `metadata` is the record `atlas.run`, `attachments`
+    are files by name, `transforms` what /tf tells: position of the stage and orientation of the
+    cabin, `notes` what in the file was not read or not checked, a line each.
     """
 
     path: Path
@@ -59,23 +59,37 @@ class Log:
         return cls(Path(), tables, {}, {}, ())
 
     def column(self, topic: str, field: str) -> Array:
-        """One field over the whole run, (n,), in the unit of its name. Raises LogError if the log does not have it."""
+        """One field over the whole run, (n,), in the unit of its name.
+
+        Raises LogError if the log does not have it.
+        """
         table = self._table(topic)
         if field not in table.fields:
-            raise LogError(f"{self.path}: {topic} has no field {field!r}; fields: {', '.join(table.fields)}")
+            raise LogError(
+                f"{self.path}: {topic} has no field {field!r}; fields: {', '.join(table.fields)}"
+            )
         return table.values[:, table.fields.index(field)]
 
     def vector(self, topic: str, name: str) -> Array:
-        """A vector or quaternion over the whole run: the fields that `name` and an axis, component or wheel number begin.
+        """A vector or quaternion over the whole run.
 
-        `q_ws` gives (n, 4); `w` gives (n, 3), in the frame and unit of the topic. Raises LogError if the log does not have it.
+        The fields that `name` and an axis, component or wheel number begin.
+
+        `q_ws` gives (n, 4); `w` gives (n, 3), in the frame and unit of the topic. Raises LogError
+        if the log does not have it.
         """
         table = self._table(topic)
         pattern = re.compile(re.escape(name) + r"(?:_([wxyz])|([xyz123])_\w+)")
-        found = {m[1] or m[2]: i for i, field in enumerate(table.fields) if (m := pattern.fullmatch(field))}
+        found = {
+            m[1] or m[2]: i
+            for i, field in enumerate(table.fields)
+            if (m := pattern.fullmatch(field))
+        }
         components = next((c for c in _COMPONENTS if found.keys() == set(c)), "")
         if not components:
-            raise LogError(f"{self.path}: {topic} has no vector {name!r}; fields: {', '.join(table.fields)}")
+            raise LogError(
+                f"{self.path}: {topic} has no vector {name!r}; fields: {', '.join(table.fields)}"
+            )
         columns = [found[component] for component in components]
         start, end = columns[0], columns[-1] + 1
         # as a part of the table where they lie side by side, as in all logs of ours
@@ -83,12 +97,17 @@ class Log:
 
     def _table(self, topic: str) -> TopicColumns:
         if topic not in self.tables:
-            raise LogError(f"{self.path}: the log has no topic {topic!r}; topics: {', '.join(self.tables)}")
+            raise LogError(
+                f"{self.path}: the log has no topic {topic!r}; topics: {', '.join(self.tables)}"
+            )
         return self.tables[topic]
 
 
 class Growing:
-    """A table that is not complete yet; its memory grows in place, where lists of pieces would need twice as much."""
+    """A table that is not complete yet.
+
+    Its memory grows in place, where lists of pieces would need twice as much.
+    """
 
     def __init__(self, fields: tuple[str, ...]) -> None:
         """A table of no messages yet."""
@@ -101,6 +120,9 @@ class Growing:
 
     def table(self) -> TopicColumns:
         """What was added, to be read only."""
-        values, times = np.frombuffer(self._values).reshape(-1, len(self.fields)), np.frombuffer(self._times, np.uint64)
+        values, times = (
+            np.frombuffer(self._values).reshape(-1, len(self.fields)),
+            np.frombuffer(self._times, np.uint64),
+        )
         values.flags.writeable = times.flags.writeable = False
         return TopicColumns(self.fields, values, times)

@@ -27,7 +27,10 @@ class _Stream:
     encode: Callable[[slice], list[bytes]]
 
     def cuts(self, starts: Times) -> list[int]:
-        """Where the chunks that begin at log times `starts` cut the messages; all of them lie in one."""
+        """Where the chunks that begin at log times `starts` cut the messages.
+
+        All of them lie in one.
+        """
         inner = np.searchsorted(np.maximum.accumulate(self.times), starts[1:])
         return [0, *inner.tolist(), len(self.times)]
 
@@ -35,7 +38,8 @@ class _Stream:
 def write_log(container: Container, log: Log, metadata: Mapping[str, str]) -> None:
     """Write columns, states, poses and files of `log` into the empty `container`, and finish it.
 
-    Log times and the order of the messages of a topic are kept. Raises what the container's `write` raises.
+    Log times and the order of the messages of a topic are kept. Raises what the container's `write`
+    raises.
     """
     streams = [_numbers(container, topic, table) for topic, table in log.tables.items()]
     streams += [_poses(container, log.transforms)] if log.transforms is not None else []
@@ -46,7 +50,9 @@ def write_log(container: Container, log: Log, metadata: Mapping[str, str]) -> No
     starts = np.maximum.accumulate(longest)[::CHUNK_TICKS]
     cuts = [stream.cuts(starts) for stream in streams]
     for k in range(len(starts)):
-        chunk = _chunk([(stream, slice(*cut[k : k + 2])) for stream, cut in zip(streams, cuts, strict=True)])
+        chunk = _chunk(
+            [(stream, slice(*cut[k : k + 2])) for stream, cut in zip(streams, cuts, strict=True)]
+        )
         if chunk.index:
             container.add_chunk(chunk)
     container.add_metadata(RUN_METADATA, metadata)
@@ -91,7 +97,9 @@ def _poses(container: Container, table: TopicColumns) -> _Stream:
     def encode(rows: slice) -> list[bytes]:
         """Encode the poses of these rows as message records."""
         records = repeat(template, len(table.values[rows]))
-        put_transforms(records, table.log_times[rows], table.values[rows, 3:], table.values[rows, :3])
+        put_transforms(
+            records, table.log_times[rows], table.values[rows, 3:], table.values[rows, :3]
+        )
         return _each(records)
 
     return _Stream(channel, table.log_times, encode)
@@ -100,15 +108,23 @@ def _poses(container: Container, table: TopicColumns) -> _Stream:
 def _states(container: Container, log: Log) -> _Stream:
     channel = container.add_channel(STATUS, *schema_of(STATUS))
     times, kind = _state_times(log), message_class(*schema_of(STATUS))
-    bodies = [kind(time_s=s.time, state=s.state, reason=s.reason).SerializeToString() for s in log.statuses]
-    records = [record_template(channel, body, time) for body, time in zip(bodies, times.tolist(), strict=True)]
+    bodies = [
+        kind(time_s=s.time, state=s.state, reason=s.reason).SerializeToString()
+        for s in log.statuses
+    ]
+    records = [
+        record_template(channel, body, time)
+        for body, time in zip(bodies, times.tolist(), strict=True)
+    ]
     return _Stream(channel, times, lambda rows: records[rows])
 
 
 def _state_times(log: Log) -> Times:
     """Log times of the states: of the last tick up to each, as they are recorded."""
     seconds = np.array([status.time for status in log.statuses])
-    ticks = next((t for t in log.tables.values() if t.fields[:1] == ("time_s",) and len(t.values)), None)
+    ticks = next(
+        (t for t in log.tables.values() if t.fields[:1] == ("time_s",) and len(t.values)), None
+    )
     if ticks is None:
         return log_times(np.nan_to_num(seconds).clip(0.0, LATEST_S))
     row = np.searchsorted(np.maximum.accumulate(ticks.values[:, 0]), seconds, side="right") - 1

@@ -22,7 +22,9 @@ def merged(channels: Sequence[Growing]) -> TopicColumns:
     if len(tables) == 1 and np.all(rows[1:] > rows[:-1]):
         return tables[0]  # as it lies in memory
     columns = [[table.fields.index(name) for name in fields] for table in tables]
-    values = np.concatenate([table.values[:, picked] for table, picked in zip(tables, columns, strict=True)])[rows]
+    values = np.concatenate(
+        [table.values[:, picked] for table, picked in zip(tables, columns, strict=True)]
+    )[rows]
     times = np.concatenate([table.log_times for table in tables])[rows]
     values.flags.writeable = times.flags.writeable = False
     return TopicColumns(fields, values, times)
@@ -31,21 +33,29 @@ def merged(channels: Sequence[Growing]) -> TopicColumns:
 def merged_states(channels: Sequence[States]) -> tuple[Status, ...]:
     """The changes of state of all channels, in order of log time."""
     states = [state for of_channel, _ in channels for state in of_channel]
-    return tuple(states[row] for row in merged_order([np.array(times, dtype=np.uint64) for _, times in channels]))
+    return tuple(
+        states[row]
+        for row in merged_order([np.array(times, dtype=np.uint64) for _, times in channels])
+    )
 
 
 def common_fields(channels: Sequence[Growing]) -> tuple[str, ...]:
     """Fields that all channels have, in the order of the first."""
-    return tuple(name for name in channels[0].fields if all(name in other.fields for other in channels[1:]))
+    return tuple(
+        name for name in channels[0].fields if all(name in other.fields for other in channels[1:])
+    )
 
 
 def merged_order(channels: Sequence[Times]) -> Rows:
     """Rows of all channels, one after the other, in order of log time (n,), ns.
 
-    Channels are merged as sorted lists are: none is put in another order than `time_order` gives it.
+    Channels are merged as sorted lists are: none is put in another order than `time_order` gives
+        it.
     """
     orders = [time_order(times) for times in channels]
-    keys = [np.maximum.accumulate(times[order]) for times, order in zip(channels, orders, strict=True)]
+    keys = [
+        np.maximum.accumulate(times[order]) for times, order in zip(channels, orders, strict=True)
+    ]
     starts = np.cumsum([0, *map(len, channels)])
     rows = [start + order for start, order in zip(starts[:-1], orders, strict=True)]
     return np.concatenate([np.empty(0, np.intp), *rows])[
@@ -56,8 +66,8 @@ def merged_order(channels: Sequence[Times]) -> Rows:
 def time_order(times: Times) -> Rows:
     """Rows of a channel in order of log time (n,), ns, where whole stretches of it change places.
 
-    MCAP lets a writer put chunks in any order. Stretches that overlap stay as they are in the file: they are
-    ticks that were recorded in the wrong order, which has to be found.
+    MCAP lets a writer put chunks in any order. Stretches that overlap stay as they are in the file:
+    they are ticks that were recorded in the wrong order, which has to be found.
     """
     starts = np.flatnonzero(np.diff(times.astype(np.int64), prepend=-1) < 0)
     starts = np.concatenate([[0], starts]) if len(times) else starts

@@ -17,11 +17,14 @@ BOUNDARY = Struct("<BQH")  # opcode, length, channel
 _DTYPE = np.dtype([("opcode", "u1"), ("length", "<u8"), ("channel", "<u2")])
 
 
-def message_starts(data: bytes, index: Starts, others: Callable[[int, bytes], None] | None = None) -> Starts:
+def message_starts(
+    data: bytes, index: Starts, others: Callable[[int, bytes], None] | None = None
+) -> Starts:
     """Offset of every message in a chunk, by channel. Raises LogError where a record is cut.
 
-    index: what the log says. It is believed only if the records it names fill the chunk without a gap; otherwise, also for
-    other people's chunks with records that are no messages, one record is found after the other, which takes 20 times as long.
+    index: what the log says. It is believed only if the records it names fill the chunk without a
+    gap; otherwise, also for other people's chunks with records that are no messages, one record is
+    found after the other, which takes 20 times as long.
     others: is given opcode and body of each record that is no message, in order; most writers put
     the descriptions of channels into chunks.
     """
@@ -29,8 +32,13 @@ def message_starts(data: bytes, index: Starts, others: Callable[[int, bytes], No
 
 
 def windows(data: bytes, dtype: np.dtype[np.void]) -> NDArray[np.void]:
-    """The bytes of a record of `dtype` from every byte of the data on, as far as they fit; `view` makes it a record."""
-    return np.ndarray((max(len(data) - dtype.itemsize + 1, 0),), f"V{dtype.itemsize}", data, strides=(1,))
+    """The bytes of a record of `dtype` from every byte of the data on, as far as they fit.
+
+    `view` makes it a record.
+    """
+    return np.ndarray(
+        (max(len(data) - dtype.itemsize + 1, 0),), f"V{dtype.itemsize}", data, strides=(1,)
+    )
 
 
 def _fills(data: bytes, index: Starts) -> bool:
@@ -69,7 +77,9 @@ def _one_after_the_other(data: bytes, others: Callable[[int, bytes], None] | Non
             raise LogError("the last record of a chunk is cut")
         opcode, length, channel = BOUNDARY.unpack_from(data, position)
         if opcode == MESSAGE_OPCODE and length < MESSAGE_HEAD:
-            raise LogError(f"a message in a chunk has {length} bytes, allowed: at least {MESSAGE_HEAD}")
+            raise LogError(
+                f"a message in a chunk has {length} bytes, allowed: at least {MESSAGE_HEAD}"
+            )
         if opcode == MESSAGE_OPCODE:
             starts.setdefault(channel, []).append(position)
         elif others and position + RECORD_HEAD + length <= end:

@@ -41,8 +41,8 @@ def read_log(path: str | Path, max_bytes: int = MAX_LOG) -> Log:
             writer; topics and fields may have been added.
         max_bytes: bound on the unpacked messages; about half of it is kept in memory.
 
-    Raises:
-        LogError: the file cannot be read, is cut or damaged (every checksum is checked), is not a log of ours,
+    Raises: LogError: the file cannot be read, is cut or damaged (every checksum is checked), is not
+        a log of ours,
             or none of the messages of a topic of ours can be read.
     """
     path = Path(path)
@@ -62,8 +62,18 @@ def telling(path: Path) -> Iterator[None]:
         raise LogError(f"{path}: {error}") from error
     except OSError as error:
         raise LogError(f"{path}: cannot be read: {error.strerror}") from error
-    except (McapError, DecodeError, struct.error, ValueError, KeyError, TypeError, AttributeError, OverflowError) as error:
-        evidence = " ".join(str(error).split()) or type(error).__name__  # protobuf's may have several lines
+    except (
+        McapError,
+        DecodeError,
+        struct.error,
+        ValueError,
+        KeyError,
+        TypeError,
+        AttributeError,
+        OverflowError,
+    ) as error:
+        # protobuf's may have several lines
+        evidence = " ".join(str(error).split()) or type(error).__name__
         raise LogError(f"{path}: the log is damaged: {evidence}") from error
 
 
@@ -74,7 +84,8 @@ class _Content:
         self._builder = LogBuilder(path, max_bytes)
         self._chunk: Chunk | None = None  # kept until its index has come
         self._index: Starts = {}
-        self._loose = bytearray()  # messages outside of chunks, until there are many or another record comes
+        # messages outside of chunks, until there are many or another record comes
+        self._loose = bytearray()
 
     def add(self, record: McapRecord | MessageOffsets | LooseMessage) -> None:
         """Take in one record of the data section; the summary repeats what is known."""

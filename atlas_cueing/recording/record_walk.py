@@ -1,7 +1,7 @@
 """From record to record through a cut or damaged file.
 
-Records follow one another by their lengths. Where that chain breaks, the next chunk is found by the words every chunk
-holds, and its checksum says whether it is one.
+Records follow one another by their lengths. Where that chain breaks, the next chunk is found by the
+words every chunk holds, and its checksum says whether it is one.
 """
 
 import mmap
@@ -23,7 +23,12 @@ _MESSAGE = re.compile(rb"\x05.{4}\0{4}", re.DOTALL)
 _LONGEST = 64  # bytes that the patterns look at, and more
 _head = struct.Struct("<BQ")
 _message = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, log time, publish time
-_INDEXES = {Opcode.MESSAGE_INDEX, Opcode.CHUNK_INDEX, Opcode.ATTACHMENT_INDEX, Opcode.METADATA_INDEX}
+_INDEXES = {
+    Opcode.MESSAGE_INDEX,
+    Opcode.CHUNK_INDEX,
+    Opcode.ATTACHMENT_INDEX,
+    Opcode.METADATA_INDEX,
+}
 _KNOWN = {*READ, *_INDEXES, Opcode.HEADER, Opcode.MESSAGE, Opcode.STATISTICS, Opcode.SUMMARY_OFFSET}
 
 
@@ -91,13 +96,17 @@ def _follows(data: mmap.mmap, position: int) -> bool:
 
 
 def _next_start(data: mmap.mmap, position: int, last: int, found: Salvage) -> int:
-    """Start of the next thing that looks like a chunk, up to `last`; the end of the file when there is none.
+    """Start of the next thing that looks like a chunk, up to `last`.
+
+    The end of the file when there is none.
 
     Where all messages so far lie outside of chunks, of the next one that another record follows.
     """
     messages = bool(found.loose) and not found.chunks
     pattern, follows = (_MESSAGE, _is_message) if messages else (_CHUNK, _is_chunk)
-    while (match := pattern.search(data, position, min(last + _LONGEST, len(data)))) and match.start() <= last:
+    while (
+        match := pattern.search(data, position, min(last + _LONGEST, len(data)))
+    ) and match.start() <= last:
         position = match.start() + 1
         if follows(data, match.start(), found):
             return match.start()
@@ -118,4 +127,8 @@ def _is_message(data: mmap.mmap, start: int, found: Salvage) -> bool:
     if start + _message.size > len(data):
         return False
     _, length, channel, *_ = _message.unpack_from(data, start)
-    return channel in found.channels and length <= MAX_RECORD and _follows(data, start + RECORD_HEAD + int(length))
+    return (
+        channel in found.channels
+        and length <= MAX_RECORD
+        and _follows(data, start + RECORD_HEAD + int(length))
+    )

@@ -32,10 +32,11 @@ _pack = Struct(f"{ROW}d").pack
 class McapRecorder:
     """A Sink that writes an MCAP log.
 
-    It is written as `path`.part, chunk by chunk, and takes its name when it is complete; a recorder that is dropped leaves
-    the .part with all chunks up to then. Whether an existing log may be replaced is for the caller to decide; what appears
-    there in the meantime stays. A link is followed: the log is written where it points. Bytes of names that are not UTF-8
-    become question marks in the log.
+    It is written as `path`.part, chunk by chunk, and takes its name when it is complete; a recorder
+    that is dropped leaves the .part with all chunks up to then. Whether an existing log may be
+    replaced is for the caller to decide; what appears there in the meantime stays. A link is
+    followed: the log is written where it points. Bytes of names that are not UTF-8 become question
+    marks in the log.
     """
 
     def __init__(
@@ -52,20 +53,19 @@ class McapRecorder:
     ) -> None:
         """Open the log.
 
-        Args:
-            path: where the complete log will be.
-            head_S: the rider's head from the sphere centre, m, frame S; /felt is computed there.
-            metadata: the record `atlas.run`, to which result and reason are added at the end.
-            attachments: TOML files by name.
-            chunk_ticks: ticks a chunk; what a killed process loses at most.
-            skip_topics: topics left out.
-            started_ns: makes it a live log: wall clock when the loop started, ns since 1970; log time is this plus the real
+        Args: path: where the complete log will be. head_S: the rider's head from the sphere centre,
+            m, frame S; /felt is computed there. metadata: the record `atlas.run`, to which result
+            and reason are added at the end. attachments: TOML files by name. chunk_ticks: ticks a
+            chunk; what a killed process loses at most. skip_topics: topics left out. started_ns:
+            makes it a live log: wall clock when the loop started, ns since 1970; log time is this
+            plus the real
                 time elapsed. Without it log time is simulated time from 2000-01-01 on.
-            observer: is given the numbers of each chunk that was written, (n, fields of TOPICS, or of LIVE_TOPICS for a live
-                log), also those of topics left out; if it raises, `append` and `flush` do, and it is not called again.
+            observer: is given the numbers of each chunk that was written, (n, fields of TOPICS, or
+                of LIVE_TOPICS for a live log), also those of topics left out; if it raises,
+                `append` and `flush` do, and it is not called again.
 
-        Raises:
-            OutputError: the file cannot be written, a topic is unknown or a chunk too large or empty.
+        Raises: OutputError: the file cannot be written, a topic is unknown or a chunk too large or
+            empty.
         """
         self._file = -1
         _check_options(chunk_ticks, skip_topics)
@@ -101,7 +101,10 @@ class McapRecorder:
             self.flush()
 
     def append_live(self, row: bytes) -> None:
-        """Keep one tick of a live log: LIVE_ROW doubles as they lie in memory. Raises as `append`."""
+        """Keep one tick of a live log: LIVE_ROW doubles as they lie in memory.
+
+        Raises as `append`.
+        """
         self._rows += row
         if len(self._rows) >= self._full:
             self.flush()
@@ -131,7 +134,10 @@ class McapRecorder:
             raise self._fail(error) from error
 
     def abandon(self) -> None:
-        """Let go of the file as it is: an unfinished log stays a .part with its complete chunks. Harmless after `close`."""
+        """Let go of the file as it is: an unfinished log stays a .part with its complete chunks.
+
+        Harmless after `close`.
+        """
         self._stop("the recorder is closed")
         self._release()
 
@@ -157,8 +163,14 @@ class McapRecorder:
     def _start(self, attachments: Mapping[str, bytes], skip: Collection[str]) -> None:
         """Write what comes before the first tick."""
         self._container = Container(self._write)
-        names = [name for name in (*(topic.name for topic in self._topics), STATUS, TF) if name not in skip]
-        self._channels = {name: self._container.add_channel(name, *schema_of(name)) for name in names}
+        names = [
+            name
+            for name in (*(topic.name for topic in self._topics), STATUS, TF)
+            if name not in skip
+        ]
+        self._channels = {
+            name: self._container.add_channel(name, *schema_of(name)) for name in names
+        }
         for name, data in attachments.items():
             self._container.add_attachment(name, "application/toml", data)
         self._status_class = message_class(STATUS_SCHEMA, status_schema())
@@ -197,7 +209,10 @@ class McapRecorder:
         return live_log_times(rows[:, ELAPSED], self._started)
 
     def _status_records(self, ticks: Array, times: Times) -> list[Extra]:
-        """The changes of state of this chunk, each after the ticks up to its time; in a live log at the last one's."""
+        """The changes of state of this chunk, each after the ticks up to its time.
+
+        In a live log at the last one's.
+        """
         if STATUS not in self._channels:
             return []
         channel, records = self._channels[STATUS], []
@@ -206,7 +221,9 @@ class McapRecorder:
             log_time = int(log_times(np.array([time]))[0])
             if self._started is not None:
                 log_time = int(times[after - 1]) if after else self._latest_log_time
-            records.append(Extra(after, channel, log_time, record_template(channel, body, log_time)))
+            records.append(
+                Extra(after, channel, log_time, record_template(channel, body, log_time))
+            )
         return records
 
     def _check_time(self, what: str, times: Array, later_than: float) -> None:
@@ -218,7 +235,10 @@ class McapRecorder:
             wrong = int(np.argmin(good))
             before = [later_than, *times][wrong]
             order = f", after {before:.9g}" if before >= 0.0 else ""
-            self._stop(f"{what} at time_s = {times[wrong]:.9g}, allowed: 0 <= time_s <= {LATEST_S:.0e}{order}")
+            self._stop(
+                f"{what} at time_s = {times[wrong]:.9g}, allowed: 0 <= time_s <="
+                f" {LATEST_S:.0e}{order}"
+            )
             self._refuse_after_failure()
 
     def _write(self, data: bytes) -> None:
@@ -243,7 +263,10 @@ class McapRecorder:
 
 
 def _hold(file: int) -> None:
-    """Keep others from writing the same log, until it is closed. Raises OSError while another run holds it."""
+    """Keep others from writing the same log, until it is closed.
+
+    Raises OSError while another run holds it.
+    """
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError as error:
@@ -252,9 +275,13 @@ def _hold(file: int) -> None:
 
 def _check_options(chunk_ticks: int, skip_topics: Collection[str]) -> None:
     if not 1 <= chunk_ticks <= MAX_CHUNK_TICKS:
-        raise OutputError(f"chunk_ticks = {chunk_ticks}, allowed: 1 <= chunk_ticks <= {MAX_CHUNK_TICKS}")
+        raise OutputError(
+            f"chunk_ticks = {chunk_ticks}, allowed: 1 <= chunk_ticks <= {MAX_CHUNK_TICKS}"
+        )
     for name in skip_topics:
         if name not in _NAMES:
-            raise OutputError(f"skip_topics: {name!r} is no topic of the log; topics: {', '.join(_NAMES)}")
+            raise OutputError(
+                f"skip_topics: {name!r} is no topic of the log; topics: {', '.join(_NAMES)}"
+            )
     if all(topic.name in skip_topics for topic in TOPICS):
         raise OutputError("skip_topics leaves nothing to record")

@@ -1,6 +1,7 @@
 """Records of an MCAP file one after the other, with every checksum checked.
 
-mcap's own reader takes a message at a time and unpacks whatever size a chunk claims; here a chunk stays whole and bounded.
+mcap's own reader takes a message at a time and unpacks whatever size a chunk claims; here a chunk
+stays whole and bounded.
 """
 
 import zlib
@@ -102,7 +103,11 @@ class RecordReader:
                     check_crc("data section", record.data_section_crc, before)
                     self._crc, self._data_end = 0, self._position
                 if isinstance(record, Footer):
-                    check_crc("summary", record.summary_crc, zlib.crc32(body[:-4], zlib.crc32(head, before)))
+                    check_crc(
+                        "summary",
+                        record.summary_crc,
+                        zlib.crc32(body[:-4], zlib.crc32(head, before)),
+                    )
                     self._check_summary(record.summary_start)
                     break
         if self.stream.read(len(MAGIC) + 1) != MAGIC:

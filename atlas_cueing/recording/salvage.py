@@ -24,7 +24,8 @@ from .recorder import RUN_METADATA
 from .salvaged import BROKEN, Salvage, TooLargeError, stream
 from .wire import MESSAGE_OPCODE, RECORD_HEAD
 
-MAX_SEARCHED = 256 * 2**20  # bytes that are no record, in which chunks are looked for; 10 GB of them would take a minute
+# bytes that are no record, in which chunks are looked for; 10 GB of them would take a minute
+MAX_SEARCHED = 256 * 2**20
 _ANY = 1 << 62  # bytes
 _message = struct.Struct("<BQHIQ")  # opcode, length, channel, sequence, log time
 
@@ -48,20 +49,28 @@ def salvage(path: str | Path, max_bytes: int) -> Salvage:
         raise LogError(f"{path}: {error}") from error
     if not found.chunks and not found.loose:
         told = f" ({found.objections[0]})" if found.objections else ""
-        raise LogError(f"{path}: there is nothing to recover: no complete chunk of a log of atlas_cueing{told}")
+        raise LogError(
+            f"{path}: there is nothing to recover: no complete chunk of a log of atlas_cueing{told}"
+        )
     found.complete = found.complete and found.finished
     return found
 
 
 def contents(found: Salvage) -> Log:
-    """Everything that was found, read into memory; pieces that cannot be read are counted in `found`.
+    """Everything that was found, read into memory.
 
-    Raises LogError when the description of a channel of ours is lost, or nothing that was found is ours.
+    Pieces that cannot be read are counted in `found`.
+
+    Raises LogError when the description of a channel of ours is lost, or nothing that was found is
+    ours.
     """
     undescribed = sorted(found.used - found.channels.keys())
     described = {channel.topic for channel in found.channels.values()}
     if undescribed and not all(topic.name in described for topic in TOPICS):
-        raise LogError(f"{found.path}: the description of channel {undescribed[0]} is lost, so its messages cannot be read")
+        raise LogError(
+            f"{found.path}: the description of channel {undescribed[0]} is lost, so its messages"
+            " cannot be read"
+        )
     loose = set(found.loose)
     try:
         builder = _builder(found)
@@ -74,7 +83,9 @@ def contents(found: Salvage) -> Log:
         raise LogError(f"{found.path}: {error}") from error
 
 
-def rewrite(found: Salvage, output: Path, metadata: Mapping[str, str], log: Log | None = None) -> None:
+def rewrite(
+    found: Salvage, output: Path, metadata: Mapping[str, str], log: Log | None = None
+) -> None:
     """Write a finished log of all that was found to `output`, under a passing name until it is complete.
 
     log: the contents of `found`, when they have been read. Chunks of ours are copied, with all channels; what lies in any
@@ -98,7 +109,10 @@ def rewrite(found: Salvage, output: Path, metadata: Mapping[str, str], log: Log 
 
 
 def copied(found: Salvage) -> bool:
-    """Whether the chunks are copied as they are: all of it lies as this program writes it, and can be read."""
+    """Whether the chunks are copied as they are.
+
+    All of it lies as this program writes it, and can be read.
+    """
     topics = [channel.topic for channel in found.channels.values()]
     return (
         found.ours
@@ -108,7 +122,9 @@ def copied(found: Salvage) -> bool:
     )
 
 
-def _copy(found: Salvage, source: BinaryIO, container: Container, metadata: Mapping[str, str]) -> None:
+def _copy(
+    found: Salvage, source: BinaryIO, container: Container, metadata: Mapping[str, str]
+) -> None:
     for _, channel in sorted(found.channels.items()):
         schema = found.schemas[channel.schema_id]
         container.add_channel(channel.topic, schema.name, schema.data)
@@ -128,12 +144,18 @@ def _encoded(data: bytes) -> EncodedChunk:
     index: dict[int, list[tuple[int, int]]] = {}
     for start, channel, log_time in _messages(data):
         index.setdefault(channel, []).append((log_time, start))
-    return EncodedChunk(data, {channel: np.array(entries, dtype=np.uint64) for channel, entries in sorted(index.items())})
+    return EncodedChunk(
+        data,
+        {channel: np.array(entries, dtype=np.uint64) for channel, entries in sorted(index.items())},
+    )
 
 
 def _is_protobuf(found: Salvage, channel: Channel) -> bool:
     schema = found.schemas.get(channel.schema_id)
-    return schema is not None and (channel.message_encoding, schema.encoding) == ("protobuf", "protobuf")
+    return schema is not None and (channel.message_encoding, schema.encoding) == (
+        "protobuf",
+        "protobuf",
+    )
 
 
 def _builder(found: Salvage) -> LogBuilder:
@@ -145,7 +167,9 @@ def _builder(found: Salvage) -> LogBuilder:
         builder.add_channel(channel)
     for number in found.used - found.channels.keys():
         topic = f"channel {number}, whose description is lost"
-        builder.add_channel(Channel(id=number, topic=topic, message_encoding="", metadata={}, schema_id=0))
+        builder.add_channel(
+            Channel(id=number, topic=topic, message_encoding="", metadata={}, schema_id=0)
+        )
     for name, content in found.attachments.items():
         builder.add_attachment(name, content)
     if found.metadata:
@@ -155,11 +179,15 @@ def _builder(found: Salvage) -> LogBuilder:
 
 
 def _add_piece(builder: LogBuilder, data: bytes, found: Salvage, *, loose: bool) -> None:
-    """Read the messages of a chunk or stretch; those of a stretch one by one, when they cannot be read at once."""
+    """Read the messages of a chunk or stretch.
+
+    Those of a stretch one by one, when they cannot be read at once.
+    """
     content = data if loose else unpack(Chunk.read(stream(data)))
     starts = [start for start, _, _ in _messages(content)] if loose else []
     try:
-        builder.add_messages(content, {}, checked=True, all_or_none=True)  # or it is said in other words
+        # or it is said in other words
+        builder.add_messages(content, {}, checked=True, all_or_none=True)
     except BROKEN as error:
         if len(starts) > 1:
             for start, end in pairwise([*starts, len(content)]):

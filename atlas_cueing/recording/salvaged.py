@@ -30,7 +30,17 @@ READ: dict[int, Callable[[ReadDataStream], McapRecord]] = {
     Opcode.SCHEMA: Schema.read,
 }
 # what comes of reading a damaged record or message
-BROKEN = (LogError, DecodeError, McapError, struct.error, ValueError, KeyError, TypeError, OverflowError, EOFError)
+BROKEN = (
+    LogError,
+    DecodeError,
+    McapError,
+    struct.error,
+    ValueError,
+    KeyError,
+    TypeError,
+    OverflowError,
+    EOFError,
+)
 
 
 class TooLargeError(LogError):
@@ -41,9 +51,10 @@ class TooLargeError(LogError):
 class Salvage:
     """What is whole in a log; `complete` says that nothing was found amiss.
 
-    `chunks`, and `loose` stretches of messages outside of chunks, are places in the file, in order. `damaged` counts the
-    pieces that cannot be read, `objections` say why. `doubtful`: messages without a checksum of their own lie in a data
-    section whose checksum is wrong. `ours`: all lies as this program writes it, so that chunks can be copied.
+    `chunks`, and `loose` stretches of messages outside of chunks, are places in the file, in order.
+    `damaged` counts the pieces that cannot be read, `objections` say why. `doubtful`: messages
+    without a checksum of their own lie in a data section whose checksum is wrong. `ours`: all lies
+    as this program writes it, so that chunks can be copied.
     """
 
     path: Path
@@ -65,7 +76,10 @@ class Salvage:
     finished: bool = False
 
     def take(self, record: McapRecord, start: int, end: int) -> None:
-        """Keep one record that lies at start to end in the file; a chunk is unpacked to see that it is whole."""
+        """Keep one record that lies at start to end in the file.
+
+        A chunk is unpacked to see that it is whole.
+        """
         match record:
             case Schema():
                 self.schemas.setdefault(record.id, record)

@@ -1,7 +1,8 @@
 """Protobuf schemas of the log, built at run time from the table in `signals.topics`.
 
-A schema record of an MCAP file holds a serialised FileDescriptorSet with the message type and everything it imports
-(https://mcap.dev/spec/registry#protobuf), so that any reader can decode the messages without our sources.
+A schema record of an MCAP file holds a serialised FileDescriptorSet with the message type and
+everything it imports (https://mcap.dev/spec/registry#protobuf), so that any reader can decode the
+messages without our sources.
 """
 
 from typing import Any
@@ -31,7 +32,9 @@ def flat_schema(topic: Topic) -> bytes:
 
 def status_schema() -> bytes:
     """FileDescriptorSet of atlas.Status: time_s (double), state and reason (strings)."""
-    return _bundle(_file(STATUS_SCHEMA, [("time_s", "double"), ("state", "string"), ("reason", "string")]))
+    return _bundle(
+        _file(STATUS_SCHEMA, [("time_s", "double"), ("state", "string"), ("reason", "string")])
+    )
 
 
 def transforms_schema() -> bytes:
@@ -63,7 +66,10 @@ def schema_of(topic: str) -> tuple[str, bytes]:
 
 
 def message_class(name: str, schema: bytes) -> Any:
-    """The message type `name` of a serialised FileDescriptorSet; Any, because its fields are known at run time only."""
+    """The message type `name` of a serialised FileDescriptorSet.
+
+    Any, because its fields are known at run time only.
+    """
     pool = descriptor_pool.DescriptorPool()
     files = {file.name: file for file in FileDescriptorSet.FromString(schema).file}
     if len(files) > MAX_FILES:
@@ -73,7 +79,9 @@ def message_class(name: str, schema: bytes) -> Any:
     return message_factory.GetMessageClass(pool.FindMessageTypeByName(name))
 
 
-def _add_file(pool: descriptor_pool.DescriptorPool, name: str, files: dict[str, FileDescriptorProto]) -> None:
+def _add_file(
+    pool: descriptor_pool.DescriptorPool, name: str, files: dict[str, FileDescriptorProto]
+) -> None:
     """Move a file into the pool, after those it imports, which other writers may put behind it."""
     file = files.pop(name)
     for imported in file.dependency:
@@ -103,7 +111,10 @@ def _fields_of(name: str, schema: bytes) -> list[FieldDescriptorProto]:
 
 
 def _is_double(field: FieldDescriptorProto) -> bool:
-    return field.type == FieldDescriptorProto.TYPE_DOUBLE and field.label == FieldDescriptorProto.LABEL_OPTIONAL
+    return (
+        field.type == FieldDescriptorProto.TYPE_DOUBLE
+        and field.label == FieldDescriptorProto.LABEL_OPTIONAL
+    )
 
 
 _NO_NUMBERS = (
@@ -118,17 +129,27 @@ def _is_number(field: FieldDescriptorProto) -> bool:
     return field.type not in _NO_NUMBERS and field.label != FieldDescriptorProto.LABEL_REPEATED
 
 
-def _file(name: str, fields: list[tuple[str, str]], imports: list[str] | None = None) -> FileDescriptorProto:
+def _file(
+    name: str, fields: list[tuple[str, str]], imports: list[str] | None = None
+) -> FileDescriptorProto:
     """One .proto file with one message; a type that starts with a dot is another message."""
     package, _, short = name.rpartition(".")
-    file = FileDescriptorProto(name=name.replace(".", "/") + ".proto", package=package, syntax="proto3", dependency=imports)
+    file = FileDescriptorProto(
+        name=name.replace(".", "/") + ".proto", package=package, syntax="proto3", dependency=imports
+    )
     message = file.message_type.add(name=short)
     for number, (field, kind) in enumerate(fields, 1):
-        added = message.field.add(name=field, number=number, label=FieldDescriptorProto.LABEL_OPTIONAL)
+        added = message.field.add(
+            name=field, number=number, label=FieldDescriptorProto.LABEL_OPTIONAL
+        )
         if kind.startswith("."):
             added.type, added.type_name = FieldDescriptorProto.TYPE_MESSAGE, kind
         else:
-            added.type = FieldDescriptorProto.TYPE_DOUBLE if kind == "double" else FieldDescriptorProto.TYPE_STRING
+            added.type = (
+                FieldDescriptorProto.TYPE_DOUBLE
+                if kind == "double"
+                else FieldDescriptorProto.TYPE_STRING
+            )
     return file
 
 

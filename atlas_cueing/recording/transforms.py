@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from ..errors import LogError
 from .wire import HEAD, Array, Records, Times, record_template, repeat
 
-POSE = ("px_m", "py_m", "pz_m", "q_ws_w", "q_ws_x", "q_ws_y", "q_ws_z")  # what a message tells, as in /motion
+# what a message tells, as in /motion
+POSE = ("px_m", "py_m", "pz_m", "q_ws_w", "q_ws_x", "q_ws_y", "q_ws_z")
 RATE_HZ = 60.0  # what viewers draw; more would only fill the log
 _NO_TURN = (1.0, 0.0, 0.0, 0.0)
 _VARINT = 5  # bytes; holds seconds below 2^35 and nanoseconds below 2^30
@@ -23,8 +24,12 @@ _DOUBLE = [("tag", "u1"), ("value", "<f8")]
 def transform_template(channel: int) -> Records:
     """One record of base -> stage -> cabin with everything constant in place; shape ()."""
     stage, cabin = _transform("base", "stage"), _transform("stage", "cabin")
-    dtype = np.dtype([*HEAD, ("stage", _dtype("base", "stage")), ("cabin", _dtype("stage", "cabin"))])
-    template: Records = np.frombuffer(record_template(channel, stage + cabin), dtype).copy().reshape(())
+    dtype = np.dtype(
+        [*HEAD, ("stage", _dtype("base", "stage")), ("cabin", _dtype("stage", "cabin"))]
+    )
+    template: Records = (
+        np.frombuffer(record_template(channel, stage + cabin), dtype).copy().reshape(())
+    )
     template["stage"]["rotation"]["value"][3] = 1.0  # no turn: w is last in foxglove.Quaternion
     return template
 
@@ -40,7 +45,10 @@ def put_transforms(records: Records, times: Times, q_WS: Array, p_WS_W: Array) -
 
 
 def take_transforms(records: Records) -> Array | None:
-    """POSE (n, 7) of n records of `transform_template`; None if anything else in them is not as the template has it."""
+    """POSE (n, 7) of n records of `transform_template`.
+
+    None if anything else in them is not as the template has it.
+    """
     expected = repeat(transform_template(0), len(records))
     for name in ("channel", "log_time", "publish_time"):
         expected[name] = records[name]
@@ -99,7 +107,13 @@ def _transform(parent: str, child: str) -> bytes:
     stamp = b"\x08" + bytes(_VARINT) + b"\x10" + bytes(_VARINT)
     vector = b"".join(bytes((tag, *bytes(8))) for tag in (0x09, 0x11, 0x19))
     quaternion = vector + b"\x21" + bytes(8)
-    parts = ((0x0A, stamp), (0x12, parent.encode()), (0x1A, child.encode()), (0x22, vector), (0x2A, quaternion))
+    parts = (
+        (0x0A, stamp),
+        (0x12, parent.encode()),
+        (0x1A, child.encode()),
+        (0x22, vector),
+        (0x2A, quaternion),
+    )
     body = b"".join(bytes((tag, len(part))) + part for tag, part in parts)
     return bytes((0x0A, len(body))) + body
 

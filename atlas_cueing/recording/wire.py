@@ -1,9 +1,10 @@
 """Fixed wire layout of the messages, so that numpy writes and reads a whole chunk at once.
 
 A protobuf field of type double is a tag (number << 3 | 1, as a varint) and 8 bytes, little-endian
-(https://protobuf.dev/programming-guides/encoding). Zeros are written too, so a message of n doubles always has the same
-length; tags take one byte up to field 15 and two from field 16 on. An MCAP message record puts an opcode, a length and a
-head of 22 bytes before it (https://mcap.dev/spec#message-op0x05).
+(https://protobuf.dev/programming-guides/encoding). Zeros are written too, so a message of n doubles
+always has the same length; tags take one byte up to field 15 and two from field 16 on. An MCAP
+message record puts an opcode, a length and a head of 22 bytes before it
+(https://mcap.dev/spec#message-op0x05).
 """
 
 from functools import lru_cache
@@ -16,7 +17,8 @@ Array = NDArray[np.float64]
 Records = NDArray[np.void]
 Times = NDArray[np.uint64]
 
-EPOCH_NS = 946_684_800_000_000_000  # 2000-01-01T00:00:00Z: simulated time 0 in a log; a zero log time breaks viewers
+# 2000-01-01T00:00:00Z: simulated time 0 in a log; a zero log time breaks viewers
+EPOCH_NS = 946_684_800_000_000_000
 LATEST_S = 1e9  # simulated times up to here fit the ns of an MCAP record with ease
 MESSAGE_OPCODE = 5
 RECORD_HEAD = 9  # bytes: opcode and length
@@ -35,11 +37,16 @@ _ONE_BYTE_TAGS = 15
 def log_times(time_s: Array) -> Times:
     """Simulated time (s, finite, 0 <= t <= LATEST_S) to the nearest ns of log time.
 
-    Whole seconds are split off first (exactly): 1e9 times the fraction is good to 1e-7 ns, at any time of a flight.
+    Whole seconds are split off first (exactly): 1e9 times the fraction is good to 1e-7 ns, at any
+    time of a flight.
     """
     seconds = np.floor(time_s)
     nanoseconds = np.rint((time_s - seconds) * 1e9)
-    times: Times = EPOCH_NS + seconds.astype(np.uint64) * np.uint64(1_000_000_000) + nanoseconds.astype(np.uint64)
+    times: Times = (
+        EPOCH_NS
+        + seconds.astype(np.uint64) * np.uint64(1_000_000_000)
+        + nanoseconds.astype(np.uint64)
+    )
     return times
 
 
@@ -51,7 +58,9 @@ def live_log_times(elapsed_s: Array, started_ns: int) -> Times:
 
 def record_template(channel: int, body: bytes, log_time: int = 0) -> bytes:
     """A whole MCAP message record with this body; sequence 0, publish time = log time."""
-    head = np.array((MESSAGE_OPCODE, _MESSAGE_HEAD + len(body), channel, 0, log_time, log_time), dtype=HEAD)
+    head = np.array(
+        (MESSAGE_OPCODE, _MESSAGE_HEAD + len(body), channel, 0, log_time, log_time), dtype=HEAD
+    )
     return head.tobytes() + body
 
 
@@ -72,10 +81,17 @@ def flat_dtype(fields: int) -> np.dtype[np.void]:
 
 
 def flat_template(channel: int, fields: int) -> Records:
-    """One record of `flat_dtype` with everything constant in place and all values zero; shape ()."""
+    """One record of `flat_dtype` with everything constant in place and all values zero.
+
+    Shape ().
+    """
     dtype = flat_dtype(fields)
     template = np.zeros((), dtype)
-    template["opcode"], template["length"], template["channel"] = MESSAGE_OPCODE, dtype.itemsize - RECORD_HEAD, channel
+    template["opcode"], template["length"], template["channel"] = (
+        MESSAGE_OPCODE,
+        dtype.itemsize - RECORD_HEAD,
+        channel,
+    )
     tags = np.arange(1, fields + 1) << 3 | 1
     template["near"]["tag"] = tags[:_ONE_BYTE_TAGS]
     if fields > _ONE_BYTE_TAGS:
@@ -85,7 +101,10 @@ def flat_template(channel: int, fields: int) -> Records:
 
 
 def repeat(template: Records, count: int) -> Records:
-    """`count` writable copies of a record of shape (), as (count,); numpy's own broadcast is slow for structures."""
+    """`count` writable copies of a record of shape (), as (count,).
+
+    Numpy's own broadcast is slow for structures.
+    """
     return np.frombuffer(bytearray(template.tobytes() * count), template.dtype)
 
 
@@ -103,7 +122,10 @@ def _tags(fields: int) -> Records:
 
 
 def take(records: Records, fields: int) -> Array | None:
-    """Values (n, fields) of n records of `flat_dtype`; None if any tag is not where the layout has it."""
+    """Values (n, fields) of n records of `flat_dtype`.
+
+    None if any tag is not where the layout has it.
+    """
     expected = _tags(fields)
     values = np.empty((len(records), fields))
     for part, columns in (("near", slice(0, _ONE_BYTE_TAGS)), ("far", slice(_ONE_BYTE_TAGS, None))):

@@ -17,7 +17,10 @@ _DEEPEST = 8  # folders and file; an aircraft has four
 
 @contextmanager
 def unpacked(log: Log) -> Iterator[Path]:
-    """A folder that holds the log's files until the end. Raises LogError for names that lead elsewhere, and for large files."""
+    """A folder that holds the log's files until the end.
+
+    Raises LogError for names that lead elsewhere, and for large files.
+    """
     _check(log)
     with TemporaryDirectory(prefix="atlas-cueing-") as name:
         folder = Path(name)
@@ -30,7 +33,9 @@ def unpacked(log: Log) -> Iterator[Path]:
 def platform_of(log: Log) -> Platform:
     """The platform of a log. Raises LogError when the log has none that can be read."""
     if PLATFORM not in log.attachments:
-        raise LogError(f"{log.path}: the log does not hold {PLATFORM}, so its limits and wheels are unknown")
+        raise LogError(
+            f"{log.path}: the log does not hold {PLATFORM}, so its limits and wheels are unknown"
+        )
     with unpacked(log) as folder:
         try:
             return load_platform(str(folder / PLATFORM))
@@ -53,7 +58,10 @@ def _check(log: Log) -> None:
             allowed = "allowed: names of folders and a file that lead nowhere else"
             raise LogError(f"{log.path}: an attachment is called {name[:60]!r}, {allowed}")
         if len(content) > LARGEST:
-            raise LogError(f"{log.path}: attachment {name!r} has {len(content)} bytes, allowed: at most {LARGEST}")
+            raise LogError(
+                f"{log.path}: attachment {name!r} has {len(content)} bytes, allowed: at most"
+                f" {LARGEST}"
+            )
 
 
 def _stays_inside(name: str) -> bool:

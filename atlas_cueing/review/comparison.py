@@ -28,19 +28,28 @@ class Comparison:
         return list(dict.fromkeys(name for each in self.reviews for name in each.metrics))
 
     def to_json(self) -> dict[str, object]:
-        """One object a log, and every metric as a list in the order of the logs; None where a log lacks it."""
+        """One object a log, and every metric as a list in the order of the logs.
+
+        None where a log lacks it.
+        """
         return {
             "names": list(self.names),
-            "logs": [{key: value for key, value in each.to_json().items() if key != "metrics"} for each in self.reviews],
-            "metrics": {name: [each.metrics.get(name) for each in self.reviews] for name in self.metric_names()},
+            "logs": [
+                {key: value for key, value in each.to_json().items() if key != "metrics"}
+                for each in self.reviews
+            ],
+            "metrics": {
+                name: [each.metrics.get(name) for each in self.reviews]
+                for name in self.metric_names()
+            },
         }
 
 
 def compare_logs(paths: Sequence[str | Path], *, different_flights: bool = False) -> Comparison:
     """Review every log and put the figures side by side.
 
-    Raises InputError for fewer than two logs, or when the vehicle did not fly the same in all and `different_flights` is not
-    given; LogError for a log that cannot be read.
+    Raises InputError for fewer than two logs, or when the vehicle did not fly the same in all and
+    `different_flights` is not given; LogError for a log that cannot be read.
     """
     if len(paths) < 2:
         raise InputError(f"compare needs at least two logs; got {len(paths)}")
@@ -49,8 +58,8 @@ def compare_logs(paths: Sequence[str | Path], *, different_flights: bool = False
         difference = flights_differ(reviews[0].run, other.run)
         if difference and not different_flights:
             raise InputError(
-                f"{other.run.log.path} is another flight than {reviews[0].run.log.path}: {difference}; "
-                "to compare them all the same use --different-flights"
+                f"{other.run.log.path} is another flight than {reviews[0].run.log.path}:"
+                f" {difference}; to compare them all the same use --different-flights"
             )
     return Comparison(_names(reviews), reviews)
 
@@ -81,4 +90,8 @@ def _names(reviews: Sequence[Review]) -> tuple[str, ...]:
         if len(set(names)) == len(names):
             return names
     stems = tuple(each.run.log.path.stem for each in reviews)
-    return stems if len(set(stems)) == len(stems) else tuple(str(each.run.log.path) for each in reviews)
+    return (
+        stems
+        if len(set(stems)) == len(stems)
+        else tuple(str(each.run.log.path) for each in reviews)
+    )

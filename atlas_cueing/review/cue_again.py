@@ -31,13 +31,17 @@ def cue_again(path: str | Path, settings: Sequence[str], output: str | Path) -> 
     output = Path(output)
     log = open_log(path)
     if SCENARIO not in log.attachments:
-        raise LogError(f"{path}: the log does not hold {SCENARIO}, so there is nothing to cue it by")
+        raise LogError(
+            f"{path}: the log does not hold {SCENARIO}, so there is nothing to cue it by"
+        )
     recorded = recorded_vehicle(log)
     with unpacked(log) as folder:
         try:
             scenario = _cued_by(folder / SCENARIO, [_from_here(text) for text in settings])
         except ScenarioError as error:
-            raise InputError(*(as_inside(ScenarioError([mistake]), folder) for mistake in error.mistakes)) from error
+            raise InputError(
+                *(as_inside(ScenarioError([mistake]), folder) for mistake in error.mistakes)
+            ) from error
         attachments = scenario.attachments()
     vehicle, pipeline = prepare(scenario, recorded)
     recorder = _recorder(output, scenario, log, attachments)
@@ -59,10 +63,15 @@ def _cued_by(file: Path, settings: Sequence[str]) -> Scenario:
     """The log's scenario with the settings on top. Raises ScenarioError with every mistake."""
     data, overrides = read_toml(file), parse_overrides(settings)
     old = data.get("cueing")
-    if isinstance(old, dict) and overrides.get(("cueing", "method"), old.get("method")) != old.get("method"):
-        # a log's scenario names every value, so that the old method's defaults would pass for somebody's wish
+    if isinstance(old, dict) and overrides.get(("cueing", "method"), old.get("method")) != old.get(
+        "method"
+    ):
+        # a log's scenario names every value, so that the old method's defaults would pass for
+        # somebody's wish
         method = ALL_METHODS.get(str(old.get("method")))
-        data["cueing"] = _changed(old, method().model_dump(mode="json") if method else {}) | {"method": old.get("method")}
+        data["cueing"] = _changed(old, method().model_dump(mode="json") if method else {}) | {
+            "method": old.get("method")
+        }
     return resolve(data, overrides, file)
 
 
@@ -78,7 +87,9 @@ def _changed(table: Mapping[str, Any], defaults: Mapping[str, Any]) -> dict[str,
     return changed
 
 
-def _recorder(output: Path, scenario: Scenario, log: Log, attachments: dict[str, bytes]) -> McapRecorder:
+def _recorder(
+    output: Path, scenario: Scenario, log: Log, attachments: dict[str, bytes]
+) -> McapRecorder:
     return McapRecorder(
         output,
         head_S=scenario.platform.head_S,
@@ -101,7 +112,8 @@ def _refuse_flown(settings: Sequence[str]) -> None:
     for text in settings:
         if text.partition("=")[0].strip().partition(".")[0] in _FLOWN:
             raise InputError(
-                f"--set: {text}: the flight is the recorded one; allowed: keys of cueing, platform, recording, name"
+                f"--set: {text}: the flight is the recorded one; allowed: keys of cueing, platform,"
+                " recording, name"
             )
 
 

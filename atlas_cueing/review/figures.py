@@ -4,7 +4,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from math import degrees
 
-# What a metric's name ends in, what is shown instead, factor and decimals; the first that fits counts.
+# What a metric's name ends in, what is shown instead, factor and decimals; the first that fits
+# counts.
 _ENDINGS = (
     ("_rad_s2", "deg/s2", degrees(1.0), 3),
     ("_rad_s", "deg/s", degrees(1.0), 3),
@@ -29,7 +30,10 @@ class Figure:
 
     @classmethod
     def of(cls, name: str) -> "Figure":
-        """The figure of a metric, whatever its name; wheels are left in rad, as their limits are given."""
+        """The figure of a metric, whatever its name.
+
+        Wheels are left in rad, as their limits are given.
+        """
         for ending, unit, factor, decimals in _ENDINGS:
             if name.endswith(ending):
                 in_rad = name.startswith("wheel_")
@@ -45,14 +49,20 @@ class Figure:
 
 def headlines(metrics: dict[str, float]) -> list[tuple[str, str]]:
     """Title and value of what tells most."""
-    return [(figure.title, figure.text(metrics[name])) for name in telling(metrics) for figure in [Figure.of(name)]]
+    return [
+        (figure.title, figure.text(metrics[name]))
+        for name in telling(metrics)
+        for figure in [Figure.of(name)]
+    ]
 
 
 def telling(names: Iterable[str]) -> list[str]:
     """The metrics that tell most, each once: errors of force, direction, rate and attitude, turns, and what was limited."""
     known = list(dict.fromkeys(names))
     errors = [name for name in known if name.split("_rms_")[0] in _TELLING and "_rms_" in name]
-    return errors + [name for name in known if name.startswith("turns_") or name.endswith("limited_share")]
+    return errors + [
+        name for name in known if name.startswith("turns_") or name.endswith("limited_share")
+    ]
 
 
 _TELLING = ("force", "direction", "rate", "attitude", "perceived_force", "perceived_rate")

@@ -13,8 +13,8 @@ Array = NDArray[np.float64]
 class Finding:
     """One fault of a log.
 
-    check: the rule that is broken, a word or two; place: topic and quantity; time: where it is worst, s, None when it belongs
-    to the whole log; text: the evidence.
+    check: the rule that is broken, a word or two; place: topic and quantity; time: where it is
+    worst, s, None when it belongs to the whole log; text: the evidence.
     """
 
     check: str
@@ -32,7 +32,14 @@ class Finding:
 
 
 def exceeding(
-    check: str, places: Sequence[str], time: Array, values: Array, allowed: ArrayLike, unit: str, *, quantity: str = "|value|"
+    check: str,
+    places: Sequence[str],
+    time: Array,
+    values: Array,
+    allowed: ArrayLike,
+    unit: str,
+    *,
+    quantity: str = "|value|",
 ) -> list[Finding]:
     """One finding for each column of `values` (n,) or (n, k) whose magnitude exceeds `allowed` anywhere.
 
@@ -43,7 +50,9 @@ def exceeding(
     found = []
     for k in np.flatnonzero((size > bounds).any(axis=0)).tolist():
         beyond = size[:, k] > bounds[:, k]
-        worst = int(np.argmax(np.where(beyond, size[:, k] / np.maximum(bounds[:, k], 1e-300), -1.0)))
+        worst = int(
+            np.argmax(np.where(beyond, size[:, k] / np.maximum(bounds[:, k], 1e-300), -1.0))
+        )
         value, bound = (f"{number[worst, k]:.9g} {unit}".rstrip() for number in (size, bounds))
         text = f"{quantity} = {value}, allowed: {quantity} <= {bound}"
         found.append(Finding(check, places[k], float(time[worst]), f"{text}{_ticks(beyond, time)}"))

@@ -33,7 +33,9 @@ def to_vector(q: Array) -> Array:
     q = np.where(q[:, :1] < 0.0, -q, q)
     sine = np.linalg.norm(q[:, 1:], axis=1, keepdims=True)
     angle = 2.0 * np.arctan2(sine, q[:, :1])
-    vector: Array = q[:, 1:] * np.where(sine > 1e-12, angle / np.where(sine > 1e-12, sine, 1.0), 2.0)
+    vector: Array = q[:, 1:] * np.where(
+        sine > 1e-12, angle / np.where(sine > 1e-12, sine, 1.0), 2.0
+    )
     return vector
 
 

@@ -12,8 +12,8 @@ from ..scenario import Platform
 from .attachments import platform_of
 from .finding import Array
 
-# A log of ours packs to four fifths in flight and to a sixth standing still. What a file unpacks to is bounded by its own
-# size, or 30 kB could fill the memory.
+# A log of ours packs to four fifths in flight and to a sixth standing still. What a file unpacks to
+# is bounded by its own size, or 30 kB could fill the memory.
 LARGEST_RATIO = 16
 SMALLEST_BOUND = 32 << 20  # bytes
 TOPICS = ("/vehicle", "/cue", "/motion", "/wheels", "/felt")
@@ -50,8 +50,8 @@ class RecordedRun:
 def open_run(path: str | Path) -> RecordedRun:
     """Read a log with its platform.
 
-    Raises InputError when there is no such file and LogError when it is damaged, not a log of ours, or lacks a topic or the
-    platform that it was flown on.
+    Raises InputError when there is no such file and LogError when it is damaged, not a log of ours,
+    or lacks a topic or the platform that it was flown on.
     """
     log = open_log(path)
     flight = RunColumns.of(_even(log))
@@ -59,13 +59,19 @@ def open_run(path: str | Path) -> RecordedRun:
 
 
 def open_log(path: str | Path) -> Log:
-    """Read a log. Raises InputError when there is no such file or a scenario, and LogError when it is damaged or not ours."""
+    """Read a log.
+
+    Raises InputError when there is no such file or a scenario, and LogError when it is damaged or
+    not ours.
+    """
     path = Path(path)
     try:
         return read_log(path, largest_content(path))
     except LogError as error:
         if path.suffix == ".toml":
-            raise InputError(f"log {path}: is a TOML file, not a log; to fly a scenario: atlas-cueing run {path}") from error
+            raise InputError(
+                f"log {path}: is a TOML file, not a log; to fly a scenario: atlas-cueing run {path}"
+            ) from error
         raise
 
 

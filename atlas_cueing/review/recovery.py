@@ -28,7 +28,12 @@ class Recovered:
 
     def to_json(self) -> dict[str, object]:
         """Everything by name, the unit in the name."""
-        return {"log": str(self.log), "ticks": self.ticks, "recovered_s": self.seconds, "lost": list(self.lost)}
+        return {
+            "log": str(self.log),
+            "ticks": self.ticks,
+            "recovered_s": self.seconds,
+            "lost": list(self.lost),
+        }
 
 
 def recover_log(broken: str | Path, output: str | Path) -> Recovered:
@@ -80,7 +85,10 @@ def _losses(found: Salvage, log: Log) -> tuple[str, ...]:
             lost += [f"{other}: {line}" for line in told if line not in lost]
     lost += [str(error) for error in found.objections if isinstance(error, CompressionError)]
     if found.doubtful:
-        lost.append("perhaps a number here and there: messages outside of chunks, and a wrong checksum of the data")
+        lost.append(
+            "perhaps a number here and there: messages outside of chunks, and a wrong checksum of"
+            " the data"
+        )
     if not found.finished:
         lost.append(f"after {time[-1]:.6f} s: whatever there was; the log has no end")
     elif not lost:
@@ -103,12 +111,17 @@ def _missing(time: np.ndarray, step: float, end: float) -> list[str]:
         return ["everything"]
     lost = [f"before {time[0]:.6f} s: everything"] if time[0] > step else []
     gaps = [(time[k], time[k + 1]) for k in np.flatnonzero(np.diff(time) > GAP * step)]
-    lost += [f"{last:.6f} to {first:.6f} s: {first - last - step:.6f} s of ticks" for last, first in gaps]
+    lost += [
+        f"{last:.6f} to {first:.6f} s: {first - last - step:.6f} s of ticks" for last, first in gaps
+    ]
     return lost + ([f"after {time[-1]:.6f} s: everything"] if time[-1] < end - 0.5 * step else [])
 
 
 def _metadata(found: Salvage, reason: str) -> dict[str, str]:
-    """The log's own account, or what its files tell of it; its result is `recovered` unless nothing was amiss."""
+    """The log's own account, or what its files tell of it.
+
+    Its result is `recovered` unless nothing was amiss.
+    """
     told = dict(found.metadata) or _from_files(found)
     if found.complete:
         return told
@@ -118,11 +131,18 @@ def _metadata(found: Salvage, reason: str) -> dict[str, str]:
 
 
 def _from_files(found: Salvage) -> dict[str, str]:
-    """Scenario, method and platform as the attachments name them; a log gets its metadata only at its end."""
+    """Scenario, method and platform as the attachments name them.
+
+    A log gets its metadata only at its end.
+    """
     scenario, platform = (_table(found.attachments.get(name, b"")) for name in (SCENARIO, PLATFORM))
     cueing = scenario.get("cueing")
     method = cueing.get("method", "") if isinstance(cueing, dict) else ""
-    return {"scenario": str(scenario.get("name", "")), "method": str(method), "platform": str(platform.get("name", ""))}
+    return {
+        "scenario": str(scenario.get("name", "")),
+        "method": str(method),
+        "platform": str(platform.get("name", "")),
+    }
 
 
 def _table(content: bytes) -> dict[str, object]:

@@ -1,4 +1,7 @@
-"""One self-contained HTML file of a review or a comparison: it opens from disk, without any network."""
+"""One self-contained HTML file of a review or a comparison.
+
+It opens from disk, without any network.
+"""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -31,7 +34,8 @@ li.finding { color: #c00000; } details { margin: 0.5em 0; }
 def write_page(found: Review, file: str | Path) -> None:
     """Write the review with plots of everything into `file`.
 
-    Raises MissingExtraError without plotly and OutputError when the file cannot be written; an old one is kept then.
+    Raises MissingExtraError without plotly and OutputError when the file cannot be written; an old
+    one is kept then.
     """
     plots = _plots()
     from .plots.limit_bars import limit_bars
@@ -42,8 +46,17 @@ def write_page(found: Review, file: str | Path) -> None:
     sections = [
         ("", _header(found)),
         ("", _findings(found)),
-        (f"Over time, in the axes of the vehicle's body and of the cabin: {_ZOOM}", plots.over_time(found)),
-        ("In space, in the axes of the platform's base: drag to turn; a dot where each path begins", in_space(run)),
+        (
+            f"Over time, in the axes of the vehicle's body and of the cabin: {_ZOOM}",
+            plots.over_time(found),
+        ),
+        (
+            (
+                "In space, in the axes of the platform's base: drag to turn; a dot where each path"
+                " begins"
+            ),
+            in_space(run),
+        ),
         *_punctuality(found),
         ("Use of the limits", limit_bars(run)),
         ("Power spectra, summed over the axes", spectra(run)),
@@ -61,10 +74,22 @@ def write_comparison(comparison: Comparison, file: str | Path) -> None:
         for name, each in zip(comparison.names, comparison.reviews, strict=True)
     )
     sections = [
-        ("", f"<h1>{' against '.join(html_text(name) for name in comparison.names)}</h1><table>{heads}</table>"),
+        (
+            "",
+            (
+                f"<h1>{' against '.join(html_text(name) for name in comparison.names)}</h1><table>{heads}</table>"
+            ),
+        ),
         ("Rider less pilot, net turns, and what was limited", _headlines(comparison)),
         (f"Over time: {_ZOOM}", plots.overlays(comparison.names, runs)),
-        ("Every figure", _metrics(comparison.names, comparison.metric_names(), [each.metrics for each in comparison.reviews])),
+        (
+            "Every figure",
+            _metrics(
+                comparison.names,
+                comparison.metric_names(),
+                [each.metrics for each in comparison.reviews],
+            ),
+        ),
     ]
     _write(file, " against ".join(comparison.names), sections)
 
@@ -113,7 +138,9 @@ def _header(found: Review) -> str:
 
 
 def _verdict(found: Review) -> str:
-    return f"<span class='verdict{' clean' if found.clean else ''}'>{html_text(found.verdict)}</span>"
+    return (
+        f"<span class='verdict{' clean' if found.clean else ''}'>{html_text(found.verdict)}</span>"
+    )
 
 
 def _findings(found: Review) -> str:
@@ -123,20 +150,33 @@ def _findings(found: Review) -> str:
 
 
 def _table(rows: Sequence[tuple[str, str]]) -> str:
-    return "<table>" + "".join(f"<tr><td>{html_text(a)}</td><td>{html_text(b)}</td></tr>" for a, b in rows) + "</table>"
+    return (
+        "<table>"
+        + "".join(f"<tr><td>{html_text(a)}</td><td>{html_text(b)}</td></tr>" for a, b in rows)
+        + "</table>"
+    )
 
 
-def _metrics(heads: Sequence[str], names: Sequence[str], columns: Sequence[dict[str, float]]) -> str:
+def _metrics(
+    heads: Sequence[str], names: Sequence[str], columns: Sequence[dict[str, float]]
+) -> str:
     """All metrics, one column a log, folded away."""
-    return f"<details><summary>{len(names)} figures</summary>{_columns(heads, names, columns)}</details>"
+    return (
+        f"<details><summary>{len(names)}"
+        f" figures</summary>{_columns(heads, names, columns)}</details>"
+    )
 
 
-def _columns(heads: Sequence[str], names: Sequence[str], columns: Sequence[dict[str, float]]) -> str:
+def _columns(
+    heads: Sequence[str], names: Sequence[str], columns: Sequence[dict[str, float]]
+) -> str:
     """Metrics by name, one column a log."""
     rows = [f"<tr><th></th>{''.join(f'<th>{html_text(head)}</th>' for head in heads)}</tr>"]
     for name in names:
         figure = Figure.of(name)
-        cells = "".join(f"<td class='number'>{figure.text(column.get(name))}</td>" for column in columns)
+        cells = "".join(
+            f"<td class='number'>{figure.text(column.get(name))}</td>" for column in columns
+        )
         rows.append(f"<tr><td>{html_text(figure.title.replace('/s2', '/s²'))}</td>{cells}</tr>")
     return f"<table>{''.join(rows)}</table>"
 
@@ -145,7 +185,10 @@ def _write(file: str | Path, title: str, sections: "Sequence[tuple[str, str | Pl
     from plotly.offline import get_plotlyjs
 
     pieces = [
-        f"<!doctype html><html lang='en'><head><meta charset='utf-8'><title>{html_text(title)}</title>",
+        (
+            "<!doctype html><html lang='en'><head><meta"
+            f" charset='utf-8'><title>{html_text(title)}</title>"
+        ),
         f"<style>{_STYLE}</style><script>{get_plotlyjs()}</script></head><body>",
     ]
     for heading, content in sections:
@@ -159,5 +202,7 @@ def _write(file: str | Path, title: str, sections: "Sequence[tuple[str, str | Pl
 
 def _html(plot: "Plot") -> str:
     """One plot as a part of the page, whose script has been read already."""
-    html: str = plot.to_html(full_html=False, include_plotlyjs=False, config={"displaylogo": False, "responsive": True})
+    html: str = plot.to_html(
+        full_html=False, include_plotlyjs=False, config={"displaylogo": False, "responsive": True}
+    )
     return html

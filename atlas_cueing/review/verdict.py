@@ -36,7 +36,11 @@ class Review:
     @property
     def verdict(self) -> str:
         """In a word or two."""
-        return "clean" if self.clean else f"{len(self.findings)} finding{'s' if len(self.findings) > 1 else ''}"
+        return (
+            "clean"
+            if self.clean
+            else f"{len(self.findings)} finding{'s' if len(self.findings) > 1 else ''}"
+        )
 
     @property
     def duration(self) -> float:
@@ -73,10 +77,21 @@ def review_log(path: str | Path) -> Review:
 
 def judge(run: RecordedRun) -> Review:
     """The review of a run that is open already."""
-    found = [*check_status(run), *check_timestamps(run), *check_finite(run), *check_log_times(run), *check_deadlines(run)]
+    found = [
+        *check_status(run),
+        *check_timestamps(run),
+        *check_finite(run),
+        *check_log_times(run),
+        *check_deadlines(run),
+    ]
     with np.errstate(all="ignore"):  # numbers out of range have been found by now
         if not any(finding.check == "ticks lost" for finding in found):
-            found += [*check_orientation(run), *check_actuators(run), *check_felt_force(run), *check_limited_flags(run)]
+            found += [
+                *check_orientation(run),
+                *check_actuators(run),
+                *check_felt_force(run),
+                *check_limited_flags(run),
+            ]
         figures = evaluate_flight(run.log, run.flight, run.platform).metrics
     found.sort(key=lambda finding: -1.0 if finding.time is None else finding.time)
     told = (*run.log.notes, *notes(run), *punctuality_notes(run))

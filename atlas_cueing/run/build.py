@@ -16,13 +16,16 @@ from ..vehicles import FlownAhead
 from ..wheels import Wheels
 
 
-def build_pipeline(scenario: Scenario, dt: float, states: Sequence[VehicleState] | None = None) -> Pipeline:
+def build_pipeline(
+    scenario: Scenario, dt: float, states: Sequence[VehicleState] | None = None
+) -> Pipeline:
     """A new pipeline for one flight of `scenario` with a state every `dt` s (the vehicle's step).
 
     states: all states of the flight, for a method that needs them (`Scenario.needs_whole_flight`).
 
-    Raises SlipConditionError for a singular platform and InputError for limits or parameters that do not fit the step, and for
-    a method that needs the whole flight and does not have it, or finds no plan for it.
+    Raises SlipConditionError for a singular platform and InputError for limits or parameters that
+    do not fit the step, and for a method that needs the whole flight and does not have it, or finds
+    no plan for it.
     """
     platform = scenario.platform
     _check_room(scenario, dt)
@@ -38,7 +41,8 @@ def build_pipeline(scenario: Scenario, dt: float, states: Sequence[VehicleState]
         cueing = _cueing(scenario, dt, states)
     except ValueError as error:
         raise InputError(
-            f"{scenario.source}: scenario {scenario.name!r} on platform {platform.name!r} at {1.0 / dt:g} Hz: {error}"
+            f"{scenario.source}: scenario {scenario.name!r} on platform {platform.name!r} at"
+            f" {1.0 / dt:g} Hz: {error}"
         ) from error
     return Pipeline(cueing, smoothing, wheels)
 
@@ -46,8 +50,8 @@ def build_pipeline(scenario: Scenario, dt: float, states: Sequence[VehicleState]
 def prepare(scenario: Scenario, vehicle: Vehicle) -> tuple[Vehicle, Pipeline]:
     """The vehicle to fly and its new pipeline, for a flight whose future may be known.
 
-    For a method that needs the whole flight the vehicle is flown to its end here, and the one returned plays it back; any other
-    is returned as it is. Raises what `build` raises.
+    For a method that needs the whole flight the vehicle is flown to its end here, and the one
+    returned plays it back; any other is returned as it is. Raises what `build` raises.
     """
     if not scenario.needs_whole_flight:
         return vehicle, build_pipeline(scenario, vehicle.dt)
@@ -67,7 +71,9 @@ def _check_room(scenario: Scenario, dt: float) -> None:
     mistakes = []
     for key, value, allowed in without_room(scenario.platform, dt):
         file = scenario.name_platform(key)
-        mistakes.append(Mistake(file, dotted(("platform", *key) if file == SET else key), shown(value), allowed))
+        mistakes.append(
+            Mistake(file, dotted(("platform", *key) if file == SET else key), shown(value), allowed)
+        )
     if mistakes:
         raise ScenarioError(mistakes)
 
@@ -76,11 +82,13 @@ def _cueing(scenario: Scenario, dt: float, states: Sequence[VehicleState] | None
     method, platform = scenario.file.cueing, scenario.platform
     stage_limits = platform.stage_limit_values()
     if not isinstance(method, PreviewTable):
-        return build_cueing(method.parameters(), method.stage_parameters(), stage_limits, platform.head_S, dt)
+        return build_cueing(
+            method.parameters(), method.stage_parameters(), stage_limits, platform.head_S, dt
+        )
     if states is None:
         raise InputError(
-            f"scenario {scenario.name!r}: method 'preview' needs the whole flight beforehand, so it does not fly live; "
-            "use run, batch or recue, or another method"
+            f"scenario {scenario.name!r}: method 'preview' needs the whole flight beforehand, so it"
+            " does not fly live; use run, batch or recue, or another method"
         )
     from ..cueing.preview import (
         preview,  # with scipy.sparse, which takes a quarter of a second to load

@@ -36,7 +36,8 @@ class Evaluation:
 def evaluate_log(log: str | Path, platform: Platform) -> Evaluation:
     """Read the log and compute everything; a log that cannot be read back is itself a violation.
 
-    Limits are looked at over the whole run, metrics of a live one over its longest stretch in state `running`.
+    Limits are looked at over the whole run, metrics of a live one over its longest stretch in state
+    `running`.
     """
     found = _Found(platform)
     try:
@@ -48,7 +49,9 @@ def evaluate_log(log: str | Path, platform: Platform) -> Evaluation:
 
 
 def evaluate_flight(log: Log, flight: RunColumns, platform: Platform) -> Evaluation:
-    """Compute everything of a log that has been read: the same figures, to the last bit, as the run gave that wrote it.
+    """Compute everything of a log that has been read.
+
+    The same figures, to the last bit, as the run gave that wrote it.
 
     flight: that of the log, with equally many rows everywhere.
     """
@@ -96,7 +99,9 @@ class _Found:
         self._use = LimitUse(platform.wheel_limit_values(), platform.stage_limit_values())
         self._metrics = Metrics()
         self._consistency = (
-            Consistency(geometry.wheels_from_sphere, geometry.sphere_from_wheels) if geometry.slip_free else None
+            Consistency(geometry.wheels_from_sphere, geometry.sphere_from_wheels)
+            if geometry.slip_free
+            else None
         )
 
     def add(self, flight: RunColumns) -> None:

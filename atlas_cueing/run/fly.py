@@ -20,10 +20,12 @@ from .stop_request import StopRequest
 
 Progress: TypeAlias = Callable[[float], None]  # called now and then with the flight time, s
 
-# Attitude and body rates of one step agree to dt^2/2 times the angular acceleration: 0.04 deg at 120 Hz and 20 rad/s^2. From
-# here on (assumed) a difference is noted in /status as a jump; at 10 Hz a hard manoeuvre may pass for one.
+# Attitude and body rates of one step agree to dt^2/2 times the angular acceleration: 0.04 deg at
+# 120 Hz and 20 rad/s^2. From here on (assumed) a difference is noted in /status as a jump; at 10 Hz
+# a hard manoeuvre may pass for one.
 JUMP: Final = radians(0.5)
-BLOCK: Final = 256  # ticks taken through the pipeline stage by stage; also from one call of Progress to the next
+# ticks taken through the pipeline stage by stage; also from one call of Progress to the next
+BLOCK: Final = 256
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,11 +75,14 @@ class Flown:
     reason: str = ""
 
 
-def run_scenario(scenario: Scenario, log: str | Path, *, progress: Progress | None = None) -> RunResult:
+def run_scenario(
+    scenario: Scenario, log: str | Path, *, progress: Progress | None = None
+) -> RunResult:
     """Fly `scenario` and write `log`, which is replaced if it exists.
 
-    The log is finished whatever ends the flight. Raises InputError (nothing was written) when the scenario cannot fly or the
-    log cannot be opened; an error that nobody expected is raised again after the log is finished.
+    The log is finished whatever ends the flight. Raises InputError (nothing was written) when the
+    scenario cannot fly or the log cannot be opened; an error that nobody expected is raised again
+    after the log is finished.
     """
     begun, log = perf_counter(), Path(log)
     flown = Flown()
@@ -98,13 +103,27 @@ def run_scenario(scenario: Scenario, log: str | Path, *, progress: Progress | No
     except OutputError as error:
         recorder.abandon()
         part, wall = recorder.part, perf_counter() - begun
-        return RunResult("recording_failed", str(error), part, flown.ticks, flown.time, wall, Evaluation())
+        return RunResult(
+            "recording_failed", str(error), part, flown.ticks, flown.time, wall, Evaluation()
+        )
     wall = perf_counter() - begun
-    return RunResult(flown.result, flown.reason, log, flown.ticks, flown.time, wall, evaluator.evaluation())
+    return RunResult(
+        flown.result, flown.reason, log, flown.ticks, flown.time, wall, evaluator.evaluation()
+    )
 
 
-def fly(vehicle: Vehicle, pipeline: Pipeline, sink: Sink, flown: Flown, progress: Progress | None, stop: StopRequest) -> None:
-    """Step until the vehicle ends or `stop` is requested; `flown` is kept up to date. Raises what the vehicle raises."""
+def fly(
+    vehicle: Vehicle,
+    pipeline: Pipeline,
+    sink: Sink,
+    flown: Flown,
+    progress: Progress | None,
+    stop: StopRequest,
+) -> None:
+    """Step until the vehicle ends or `stop` is requested; `flown` is kept up to date.
+
+    Raises what the vehicle raises.
+    """
     kept = _Keeper(pipeline, sink, flown, progress)
     states, more = [vehicle.state], True
     while more:
@@ -127,7 +146,9 @@ def _gather(vehicle: Vehicle, states: list[VehicleState], stop: StopRequest) -> 
 class _Keeper:
     """Takes blocks of states through the pipeline into the sink, and notes the jumps among them."""
 
-    def __init__(self, pipeline: Pipeline, sink: Sink, flown: Flown, progress: Progress | None) -> None:
+    def __init__(
+        self, pipeline: Pipeline, sink: Sink, flown: Flown, progress: Progress | None
+    ) -> None:
         self._pipeline, self._sink, self._flown, self._progress = pipeline, sink, flown, progress
         self._before: VehicleState | None = None
         self._jumping = False
@@ -146,7 +167,11 @@ class _Keeper:
         self._before = now
         if (jump >= JUMP) != self._jumping:
             self._jumping = not self._jumping
-            reason = f"attitude jumped by {degrees(jump):.3g} deg that the body rates do not explain" if self._jumping else ""
+            reason = (
+                f"attitude jumped by {degrees(jump):.3g} deg that the body rates do not explain"
+                if self._jumping
+                else ""
+            )
             self._sink.status(now.time, "attitude_jump" if self._jumping else "running", reason)
 
 
@@ -155,13 +180,21 @@ def _load(scenario: Scenario, flown: Flown) -> Vehicle | None:
     flight = scenario.flight
     try:
         with scenario.naming_file():
-            return SignalVehicle(flight) if isinstance(flight, SignalFlight) else JsbsimVehicle(flight)
+            return (
+                SignalVehicle(flight) if isinstance(flight, SignalFlight) else JsbsimVehicle(flight)
+            )
     except VehicleError as error:
         flown.result, flown.reason = "vehicle_failed", str(error)
         return None
 
 
-def _record(vehicle: Vehicle | None, pipeline: Pipeline | None, sink: Sink, flown: Flown, progress: Progress | None) -> None:
+def _record(
+    vehicle: Vehicle | None,
+    pipeline: Pipeline | None,
+    sink: Sink,
+    flown: Flown,
+    progress: Progress | None,
+) -> None:
     """Fly, and finish the log whatever happens."""
     sink.status(0.0, "running", "")
     try:
@@ -190,4 +223,9 @@ def _finish(sink: Sink, flown: Flown) -> None:
 
 def _metadata(scenario: Scenario) -> dict[str, str]:
     versions = {f"{name}_version": version(name) for name in ("atlas_cueing", "jsbsim", "ruckig")}
-    return {"scenario": scenario.name, "method": scenario.file.cueing.method, "platform": scenario.platform.name, **versions}
+    return {
+        "scenario": scenario.name,
+        "method": scenario.file.cueing.method,
+        "platform": scenario.platform.name,
+        **versions,
+    }

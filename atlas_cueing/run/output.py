@@ -20,7 +20,10 @@ class Kind:
     begins: bytes
 
     def may_replace(self, begin: bytes) -> bool:
-        """Whether a file that begins so may be replaced by one of this kind: it is one, or empty."""
+        """Whether a file that begins so may be replaced by one of this kind.
+
+        It is one, or empty.
+        """
         return not begin or begin.startswith(self.begins)
 
 

@@ -9,7 +9,9 @@ _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
 class StopRequest:
-    """While entered, the first signal sets `requested`; a second one raises KeyboardInterrupt at once.
+    """While entered, the first signal sets `requested`.
+
+    A second one raises KeyboardInterrupt at once.
 
     Outside the main thread, where Python does not deliver signals, nothing is caught.
     """
@@ -23,7 +25,12 @@ class StopRequest:
             self._before = {number: signal.signal(number, self._ask) for number in _SIGNALS}
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
         for number, handler in self._before.items():
             signal.signal(number, handler)
 

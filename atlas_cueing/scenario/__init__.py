@@ -1,4 +1,7 @@
-"""Scenario and platform files: what to fly, on which platform, cued how. The only place that knows TOML."""
+"""Scenario and platform files: what to fly, on which platform, cued how.
+
+The only place that knows TOML.
+"""
 
 from .load import load_platform, load_scenario
 from .platform_file import Platform, presets

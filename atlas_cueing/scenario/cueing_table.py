@@ -51,7 +51,9 @@ def _degrees(angle: float) -> float:
 
 
 class StageTable(ScenarioTable):
-    """`[cueing.stage]`: see StageParameters; `travel_m` is left out where the platform's own travel counts.
+    """`[cueing.stage]`: see StageParameters.
+
+    `travel_m` is left out where the platform's own travel counts.
 
     planner: `horizon` plans ahead, by HorizonParameters; `onset` is the onset filter by itself.
     """
@@ -69,7 +71,10 @@ class StageTable(ScenarioTable):
     def parameters(self, force_gain: tuple[Gain, Gain, Gain]) -> StageParameters:
         """Parameters of the stage, SI."""
         horizon = HorizonParameters(
-            planning_rate=self.planning_rate_hz, length=self.horizon_s, memory=self.memory_s, first_share=self.first_share
+            planning_rate=self.planning_rate_hz,
+            length=self.horizon_s,
+            memory=self.memory_s,
+            first_share=self.first_share,
         )
         return StageParameters(
             force_gain,
@@ -112,7 +117,9 @@ class AttitudeTable(_Method):
 
     def parameters(self) -> MethodParameters:
         """Parameters of the method, SI."""
-        turn = SlowTurnParameters(radians(self.return_rate_deg_s), self.return_time_s, self.return_smoothing_s)
+        turn = SlowTurnParameters(
+            radians(self.return_rate_deg_s), self.return_time_s, self.return_smoothing_s
+        )
         return AttitudeParameters(rotation_gain=self.rotation_gain, turn=turn)
 
 
@@ -127,8 +134,12 @@ class BlendTable(_Method):
 
     def parameters(self) -> MethodParameters:
         """Parameters of the method, SI."""
-        turn = SlowTurnParameters(radians(self.align_rate_deg_s), self.align_time_s, self.align_smoothing_s)
-        return BlendParameters(rotation_gain=self.rotation_gain, hold=self.hold_force_m_s2, turn=turn)
+        turn = SlowTurnParameters(
+            radians(self.align_rate_deg_s), self.align_time_s, self.align_smoothing_s
+        )
+        return BlendParameters(
+            rotation_gain=self.rotation_gain, hold=self.hold_force_m_s2, turn=turn
+        )
 
 
 class ForceTable(_Method):
@@ -143,7 +154,9 @@ class ForceTable(_Method):
 
     def parameters(self) -> MethodParameters:
         """Parameters of the method, SI."""
-        turn = SlowTurnParameters(radians(self.align_rate_deg_s), self.align_time_s, self.align_smoothing_s)
+        turn = SlowTurnParameters(
+            radians(self.align_rate_deg_s), self.align_time_s, self.align_smoothing_s
+        )
         return ForceParameters(self.rotation_gain, self.bandwidth_rad_s, self.hold_force_m_s2, turn)
 
 
@@ -156,7 +169,9 @@ class ClassicalTable(_Method):
     high_pass_rad_s: Frequencies = _CLASSICAL.high_pass
     tilt_low_pass_rad_s: Frequency = _CLASSICAL.tilt_low_pass
     tilt_rate_deg_s: TurnRate = _degrees(_CLASSICAL.tilt_rate)
-    angle_limit_deg: Annotated[float, number(0.0, 1e6, above=True)] = _degrees(_CLASSICAL.angle_limit)
+    angle_limit_deg: Annotated[float, number(0.0, 1e6, above=True)] = _degrees(
+        _CLASSICAL.angle_limit
+    )
     stage: ClassicalStageTable = ClassicalStageTable()
 
     def parameters(self) -> MethodParameters:
@@ -205,7 +220,11 @@ DEFAULT_METHOD = "blend"
 
 
 def _method(value: Any) -> Any:
-    return value.get("method", DEFAULT_METHOD) if isinstance(value, dict) else getattr(value, "method", DEFAULT_METHOD)
+    return (
+        value.get("method", DEFAULT_METHOD)
+        if isinstance(value, dict)
+        else getattr(value, "method", DEFAULT_METHOD)
+    )
 
 
 CueingTable: TypeAlias = Annotated[

@@ -25,12 +25,14 @@ T = TypeVar("T", bound=ScenarioTable)
 _CHOICE = ("preset", "file")
 
 
-def load_scenario(path: str | Path, overrides: Sequence[str] = (), *, trust_models: bool = False) -> Scenario:
+def load_scenario(
+    path: str | Path, overrides: Sequence[str] = (), *, trust_models: bool = False
+) -> Scenario:
     """Read a scenario file and its platform, with `KEY=VALUE` overrides put on top.
 
     Keys below `platform.` other than `preset` and `file` are those of the platform file, as in
-    `platform.wheel_limits.speed_rad_s=20`.
-    A value is TOML, or else a bare string. Raises ScenarioError with every mistake of both files and of the overrides.
+    `platform.wheel_limits.speed_rad_s=20`. A value is TOML, or else a bare string. Raises
+    ScenarioError with every mistake of both files and of the overrides.
 
     trust_models: whether a script or aircraft beside the scenario may be flown; it can be read and
         cued anew in any case.
@@ -44,7 +46,10 @@ def load_scenario(path: str | Path, overrides: Sequence[str] = (), *, trust_mode
 
 
 class Known:
-    """What the scenarios of one file are made of, by overrides: read and checked once, however many have it."""
+    """What the scenarios of one file are made of, by overrides.
+
+    Read and checked once, however many have it.
+    """
 
     def __init__(self) -> None:
         self._files = TomlFiles()
@@ -61,7 +66,10 @@ class Known:
     def table(
         self, data: dict[str, Any], overrides: Overrides, path: Path, trusted: bool
     ) -> tuple[ScenarioFile | None, list[Mistake]]:
-        """The scenario's own table, or none and what is wrong with it; the overrides are in `data` already."""
+        """The scenario's own table, or none and what is wrong with it.
+
+        The overrides are in `data` already.
+        """
         key = _exactly(overrides)
         if key not in self._tables:
             self._tables[key] = _read_table(data, overrides, path, trusted)
@@ -82,9 +90,13 @@ def resolve(
     """
     known = known or Known()
     deep = {
-        key[1:]: value for key, value in settings.items() if key[0] == "platform" and len(key) > 1 and key[1] not in _CHOICE
+        key[1:]: value
+        for key, value in settings.items()
+        if key[0] == "platform" and len(key) > 1 and key[1] not in _CHOICE
     }
-    flat = {key: value for key, value in settings.items() if key[0] != "platform" or key[1:] not in deep}
+    flat = {
+        key: value for key, value in settings.items() if key[0] != "platform" or key[1:] not in deep
+    }
     if ("cueing", "method") in flat:
         _leave_method(data, flat["cueing", "method"])
     mistakes = apply_overrides(data, flat)
@@ -94,15 +106,32 @@ def resolve(
     mistakes += found
     if mistakes or file is None or platform is None:
         raise ScenarioError(mistakes)
-    return Scenario(file, platform, path.parent, trust_models, str(path), _platform_namer(file, path.parent, deep))
+    return Scenario(
+        file,
+        platform,
+        path.parent,
+        trust_models,
+        str(path),
+        _platform_namer(file, path.parent, deep),
+    )
 
 
 def load_platform(name_or_path: str) -> Platform:
-    """A platform of the package by name, or a platform file by path. Raises ScenarioError with every mistake."""
+    """A platform of the package by name, or a platform file by path.
+
+    Raises ScenarioError with every mistake.
+    """
     path = presets().get(name_or_path, Path(name_or_path))
     if not os.path.exists(path):  # Path.exists raises when a name is too long
         raise ScenarioError(
-            [Mistake(name_or_path, "file", "", f"no such file or platform; {nearest(name_or_path, presets())}")]
+            [
+                Mistake(
+                    name_or_path,
+                    "file",
+                    "",
+                    f"no such file or platform; {nearest(name_or_path, presets())}",
+                )
+            ]
         )
     platform, mistakes = Known().platform(path, {})
     if platform is None:
@@ -126,16 +155,23 @@ def _read_table(
     return file, [*mistakes, *broken[:MOST_SHOWN], *more(len(broken) - MOST_SHOWN, str(path))]
 
 
-def _read_platform(path: Path, overrides: Overrides, files: TomlFiles) -> tuple[Platform | None, list[Mistake]]:
+def _read_platform(
+    path: Path, overrides: Overrides, files: TomlFiles
+) -> tuple[Platform | None, list[Mistake]]:
     try:
         data = with_own(files.read(path), overrides)
     except ScenarioError as error:
         return None, list(error.mistakes)
     mistakes = apply_overrides(data, overrides)
     platform, found = _validate(
-        Platform, data, FileNamer(path.name if path in presets().values() else str(path), overrides), path
+        Platform,
+        data,
+        FileNamer(path.name if path in presets().values() else str(path), overrides),
+        path,
     )
-    return platform, [replace(m, key=f"platform.{m.key}") if m.file == SET else m for m in mistakes + found]
+    return platform, [
+        replace(m, key=f"platform.{m.key}") if m.file == SET else m for m in mistakes + found
+    ]
 
 
 def _platform_namer(file: ScenarioFile, folder: Path, overrides: Overrides) -> FileNamer:
@@ -144,8 +180,13 @@ def _platform_namer(file: ScenarioFile, folder: Path, overrides: Overrides) -> F
     return FileNamer(presets()[preset].name if preset else str(folder / (other or "")), overrides)
 
 
-def _chosen_platform(choice: Any, folder: Path, overrides: Overrides, known: Known) -> tuple[Platform | None, list[Mistake]]:
-    """The platform of a `[platform]` table; none, and no mistake either, when the table itself is wrong."""
+def _chosen_platform(
+    choice: Any, folder: Path, overrides: Overrides, known: Known
+) -> tuple[Platform | None, list[Mistake]]:
+    """The platform of a `[platform]` table.
+
+    None, and no mistake either, when the table itself is wrong.
+    """
     if not isinstance(choice, dict):
         return None, []
     preset, file = (choice.get(key) for key in _CHOICE)
@@ -156,7 +197,9 @@ def _chosen_platform(choice: Any, folder: Path, overrides: Overrides, known: Kno
     return None, []
 
 
-def _validate(table: type[T], data: dict[str, Any], name_file: FileNamer, folder: Path) -> tuple[T | None, list[Mistake]]:
+def _validate(
+    table: type[T], data: dict[str, Any], name_file: FileNamer, folder: Path
+) -> tuple[T | None, list[Mistake]]:
     try:
         return table.model_validate(data, context={"folder": folder}), []
     except ValidationError as error:
@@ -178,5 +221,9 @@ def _leave_method(data: dict[str, Any], method: Any) -> None:
     if not isinstance(table, dict) or not isinstance(method, str) or method not in ALL_METHODS:
         return
     old = ALL_METHODS.get(str(table.get("method", DEFAULT_METHOD)))
-    for key in [key for key in table if old and key in old.model_fields and key not in ALL_METHODS[method].model_fields]:
+    for key in [
+        key
+        for key in table
+        if old and key in old.model_fields and key not in ALL_METHODS[method].model_fields
+    ]:
         del table[key]

@@ -1,4 +1,7 @@
-"""From pydantic's errors to the user's mistakes: file, key as written, value found, what is allowed."""
+"""From pydantic's errors to the user's mistakes.
+
+File, key as written, value found, what is allowed.
+"""
 
 import re
 from collections.abc import Collection, Sequence
@@ -13,7 +16,8 @@ from pydantic_core import ErrorDetails
 from ..errors import Mistake
 from .tables import ScenarioTable, tables_in
 
-_KINDS = {"model_type": "a table", "bool_type": "true or false", "string_type": "a string"}  # pydantic's names
+# pydantic's names
+_KINDS = {"model_type": "a table", "bool_type": "true or false", "string_type": "a string"}
 
 Key: TypeAlias = tuple[str | int, ...]
 
@@ -22,8 +26,12 @@ MOST_SHOWN = 100  # mistakes of one file; who has more will mend the first ones 
 _LONGEST_VALUE = 60  # characters of a found value that a message repeats
 
 
-def mistakes_of(error: ValidationError, table: type[ScenarioTable], data: dict[str, Any], name_file: "FileNamer") -> list[Mistake]:
-    """Every mistake once, in the order of the file; `name_file` says which file (or option) a key came from.
+def mistakes_of(
+    error: ValidationError, table: type[ScenarioTable], data: dict[str, Any], name_file: "FileNamer"
+) -> list[Mistake]:
+    """Every mistake once, in the order of the file.
+
+    `name_file` says which file (or option) a key came from.
 
     Of very many only some are looked at, and a last one says how many are left.
     """
@@ -63,19 +71,32 @@ def _related(key: Key, path: Key) -> bool:
 
 @lru_cache(maxsize=64)  # the keys of a sweep, again and again
 def dotted(key: Key) -> str:
-    """`vehicle.input.0.value`: the key as `--set` takes it; a part that would not print in one line is quoted."""
+    """`vehicle.input.0.value`: the key as `--set` takes it.
+
+    A part that would not print in one line is quoted.
+    """
     return ".".join(text if (text := str(part)).isprintable() else repr(part) for part in key)
 
 
 def nearest(word: str, known: Collection[str]) -> str:
-    """What is allowed instead of an unknown word: the nearest one first, then all if they are few."""
+    """What is allowed instead of an unknown word.
+
+    The nearest one first, then all if they are few.
+    """
     near = get_close_matches(word, known, n=1, cutoff=0.5)
     guess = f"did you mean {near[0]!r}? " if near else ""
-    return f"{guess}allowed: {', '.join(sorted(known))}" if len(known) <= 20 or not near else guess.rstrip()
+    return (
+        f"{guess}allowed: {', '.join(sorted(known))}"
+        if len(known) <= 20 or not near
+        else guess.rstrip()
+    )
 
 
 def shown(value: Any) -> str:
-    """A found value as TOML would write it, cut to a readable length; empty when there is none or it is a table."""
+    """A found value as TOML would write it, cut to a readable length.
+
+    Empty when there is none or it is a table.
+    """
     if value is None or isinstance(value, dict):
         return ""
     if isinstance(value, date | time):  # a datetime is a date
@@ -94,7 +115,10 @@ def _repr(value: Any) -> str:
 def _allowed(detail: ErrorDetails, table: type[ScenarioTable]) -> str:
     kind, context = detail["type"], detail.get("ctx", {})
     if kind == "extra_forbidden":
-        return f"unknown key; {nearest(str(detail['loc'][-1]), _known_keys(table, detail['loc'][:-1]))}"
+        return (
+            "unknown key;"
+            f" {nearest(str(detail['loc'][-1]), _known_keys(table, detail['loc'][:-1]))}"
+        )
     if kind == "missing":
         return "missing"
     if kind == "union_tag_invalid":
@@ -112,8 +136,17 @@ def _known_keys(table: type[ScenarioTable], loc: Sequence[str | int]) -> list[st
     for part in loc:
         if isinstance(part, int):
             continue
-        inner = [t for candidate in tables if part in candidate.model_fields for t in tables_in(_type(candidate, part))]
-        tables = inner or [t for t in tables if "method" in t.model_fields and t.model_fields["method"].default == part]
+        inner = [
+            t
+            for candidate in tables
+            if part in candidate.model_fields
+            for t in tables_in(_type(candidate, part))
+        ]
+        tables = inner or [
+            t
+            for t in tables
+            if "method" in t.model_fields and t.model_fields["method"].default == part
+        ]
     return [name for candidate in tables for name in candidate.model_fields]
 
 
@@ -122,7 +155,10 @@ def _type(table: type[ScenarioTable], field: str) -> Any:
 
 
 def _as_written(loc: Sequence[str | int], data: Any) -> tuple[Key, Any]:
-    """The key as it stands in the file, and its value: without union tags, and without places in a number that was spread."""
+    """The key as it stands in the file, and its value.
+
+    Without union tags, and without places in a number that was spread.
+    """
     key: list[str | int] = []
     value = data
     for i, part in enumerate(loc):
@@ -150,4 +186,8 @@ def _position(key: Key, data: Any) -> tuple[int, ...]:
 def _lookup(container: Any, part: str | int) -> Any:
     if isinstance(container, dict):
         return container.get(str(part))
-    return container[part] if isinstance(container, list) and isinstance(part, int) and part < len(container) else None
+    return (
+        container[part]
+        if isinstance(container, list) and isinstance(part, int) and part < len(container)
+        else None
+    )

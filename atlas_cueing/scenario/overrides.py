@@ -21,7 +21,9 @@ _ALTERNATIVES: dict[Key, tuple[Key, ...]] = {
 
 
 def parse_overrides(texts: Sequence[str]) -> Overrides:
-    """Keys and values of `KEY=VALUE` texts, the last of equal keys counts; a value that is not TOML is a bare string.
+    """Keys and values of `KEY=VALUE` texts, the last of equal keys counts.
+
+    A value that is not TOML is a bare string.
 
     Raises ScenarioError for every text without a key or `=`.
     """
@@ -29,10 +31,18 @@ def parse_overrides(texts: Sequence[str]) -> Overrides:
     mistakes = []
     for text in texts:
         key, equals, value = text.partition("=")
-        parts = tuple(int(part) if part.isdecimal() and part.isascii() else part for part in key.strip().split("."))
+        parts = tuple(
+            int(part) if part.isdecimal() and part.isascii() else part
+            for part in key.strip().split(".")
+        )
         if not equals or "" in parts or utf8(key) != key:
             mistakes.append(
-                Mistake(SET, printable(text), "", "allowed: KEY=VALUE, with a dotted key such as cueing.method=blend")
+                Mistake(
+                    SET,
+                    printable(text),
+                    "",
+                    "allowed: KEY=VALUE, with a dotted key such as cueing.method=blend",
+                )
             )
         else:
             overrides.pop(parts, None)
@@ -47,11 +57,15 @@ def _value(text: str) -> Any:
         table = parse_toml(f"value = {text}", SET)
     except ScenarioError:
         return text
-    return table["value"] if table.keys() == {"value"} else text  # a line break in the text could smuggle in more keys
+    # a line break in the text could smuggle in more keys
+    return table["value"] if table.keys() == {"value"} else text
 
 
 def apply_overrides(data: dict[str, Any], overrides: Overrides) -> list[Mistake]:
-    """Put the values into `data`, making tables where there are none; mistakes for keys that lead nowhere."""
+    """Put the values into `data`, making tables where there are none.
+
+    Mistakes for keys that lead nowhere.
+    """
     mistakes = []
     for key, value in overrides.items():
         for other in _ALTERNATIVES.get(key, ()):

@@ -24,7 +24,8 @@ from .tables import (
 
 Direction: TypeAlias = Annotated[tuple[Finite, Finite, Finite], THREE]
 Length: TypeAlias = Annotated[float, number(0.001, 100.0)]  # m; from a bead to a gasometer
-Limit: TypeAlias = Annotated[float, number(1e-6, 1e6)]  # squares and quotients of these stay far from overflow
+# squares and quotients of these stay far from overflow
+Limit: TypeAlias = Annotated[float, number(1e-6, 1e6)]
 Limits: TypeAlias = Annotated[tuple[Limit, Limit, Limit], ONE_OR_THREE]
 
 _LONGEST_NAME = 100  # characters, and ...
@@ -40,7 +41,11 @@ def _name(value: Any) -> str:
     name = normalize("NFC", value)
     if not 0 < len(name) <= _LONGEST_NAME or not all(map(_is_name_part, name)):
         raise refuse(allowed)
-    if name[0] == "." or category(name[0]).startswith("M") or len(name.encode()) > _LONGEST_NAME_BYTES:
+    if (
+        name[0] == "."
+        or category(name[0]).startswith("M")
+        or len(name.encode()) > _LONGEST_NAME_BYTES
+    ):
         raise refuse(allowed)
     return name
 
@@ -80,7 +85,8 @@ class WheelTable(ScenarioTable):
 
 @lru_cache(maxsize=64)  # of ten thousand platforms that a sweep makes, few have wheels of their own
 def _wheel(contact: Vec3, drive: Vec3, radius: float) -> OmniWheel:
-    # 0 and -0 are one key: the sum makes both 0, so that the wheel does not depend on which came first
+    # 0 and -0 are one key: the sum makes both 0, so that the wheel does not depend on which came
+    # first
     return OmniWheel.along(add(contact, ZERO), add(drive, ZERO), radius)
 
 
@@ -93,7 +99,10 @@ class WheelLimitsTable(ScenarioTable):
 
 
 class StageLimitsTable(ScenarioTable):
-    """`[stage_limits]`: one number for all axes of W, or one each; travel is plus or minus from the centre."""
+    """`[stage_limits]`: one number for all axes of W, or one each.
+
+    Travel is plus or minus from the centre.
+    """
 
     travel_m: Limits
     speed_m_s: Limits
@@ -128,7 +137,9 @@ class Platform(ScenarioTable):
     def geometry(self) -> Geometry:
         """The kinematics; a singular one is refused by whoever needs the drive."""
         first, second, third = self.wheel
-        return Geometry(self.name, self.sphere.radius_m, (first.wheel(), second.wheel(), third.wheel()))
+        return Geometry(
+            self.name, self.sphere.radius_m, (first.wheel(), second.wheel(), third.wheel())
+        )
 
     def wheel_limit_values(self) -> WheelLimits:
         """Limits of the wheels, SI."""
@@ -138,7 +149,9 @@ class Platform(ScenarioTable):
     def stage_limit_values(self) -> StageLimits:
         """Limits of the stage, SI."""
         table = self.stage_limits
-        return StageLimits(table.travel_m, table.speed_m_s, table.acceleration_m_s2, table.jerk_m_s3)
+        return StageLimits(
+            table.travel_m, table.speed_m_s, table.acceleration_m_s2, table.jerk_m_s3
+        )
 
     @property
     def head_S(self) -> Vec3:
@@ -147,7 +160,10 @@ class Platform(ScenarioTable):
 
 
 def without_room(platform: Platform, dt: float) -> list[tuple[tuple[str, str], float, str]]:
-    """Limits that leave no room to move between two ticks of dt s: (key, value, what is allowed)."""
+    """Limits that leave no room to move between two ticks of dt s.
+
+    (key, value, what is allowed).
+    """
     wheels, stage = platform.wheel_limits, platform.stage_limits
     rows = (
         ("wheel_limits", "speed_rad_s", wheels.speed_rad_s, "jerk_rad_s3", wheels.jerk_rad_s3),
@@ -159,7 +175,10 @@ def without_room(platform: Platform, dt: float) -> list[tuple[tuple[str, str], f
         for value, other in dict.fromkeys(zip(values, others, strict=True)):
             least = other * dt * dt / 8.0  # between two ticks it swings by that much
             if not value > least:
-                allowed = f"value > {least:.3g}, which is {steeper} ({other:g}) dt^2 / 8 at {1.0 / dt:g} Hz"
+                allowed = (
+                    f"value > {least:.3g}, which is {steeper} ({other:g}) dt^2 / 8 at"
+                    f" {1.0 / dt:g} Hz"
+                )
                 found.append(((table, key), value, f"allowed: {allowed}"))
     return found
 

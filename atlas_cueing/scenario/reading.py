@@ -17,11 +17,13 @@ LARGEST_FILE = 256 * 1024  # bytes; a scenario of a thousand timed inputs has 80
 DEEPEST_NESTING = 16  # brackets within brackets; the files here need three
 LONGEST_DOTTED_KEY = 16  # dots; the files here need three
 LONGEST_KEY = 100  # characters; the longest here has 25
-MOST_KEYS = 20_000  # of all tables; thousands of timed inputs, and every one may be a mistake to be told
+# of all tables; thousands of timed inputs, and every one may be a mistake to be told
+MOST_KEYS = 20_000
 _LOG = b"\x89MCAP"  # how logs begin
 
-# Strings and comments hold brackets and dots that mean nothing. A string may lack its end, so that every character is read
-# once (the parser stops there anyway), and nothing is given back (`*+`); up to five quotes end a string of three.
+# Strings and comments hold brackets and dots that mean nothing. A string may lack its end, so that
+# every character is read once (the parser stops there anyway), and nothing is given back (`*+`); up
+# to five quotes end a string of three.
 _QUOTED = re.compile(
     r"""
       \"{3} (?: \\. | (?!\"{3}) [^\\] )*+ (?:\"{3,5})?
@@ -36,7 +38,10 @@ _BETWEEN_KEYS = re.compile(r"[=,{}\[\]\n]")
 
 
 def read_toml(path: Path) -> dict[str, Any]:
-    """The file as a table. Raises ScenarioError when it cannot be read, is too large or nested, or is not TOML."""
+    """The file as a table.
+
+    Raises ScenarioError when it cannot be read, is too large or nested, or is not TOML.
+    """
     return parse_toml(_read(path), str(path))
 
 
@@ -64,7 +69,8 @@ def parse_toml(text: str, file: str) -> dict[str, Any]:
     _check_shape(text, file)
     try:
         table = tomllib.loads(text)
-    except (ValueError, RecursionError) as error:  # not only TOMLDecodeError: an integer of 5000 digits is a plain ValueError
+    except (ValueError, RecursionError) as error:
+        # not only TOMLDecodeError: an integer of 5000 digits is a plain ValueError
         raise _mistake(file, "TOML", f"not valid: {error}") from None
     _check_keys(table, file)
     return table
@@ -80,7 +86,11 @@ def _read(path: Path) -> str:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise _mistake(str(path), "file", f"cannot be read: {reason}") from None
     if content.startswith(_LOG):
-        raise _mistake(str(path), "file", "is a log (MCAP), allowed: a TOML file; to look at a log: atlas-cueing review")
+        raise _mistake(
+            str(path),
+            "file",
+            "is a log (MCAP), allowed: a TOML file; to look at a log: atlas-cueing review",
+        )
     if len(content) > LARGEST_FILE:
         raise _mistake(str(path), "file", f"too large, allowed: size <= {LARGEST_FILE} bytes")
     if content.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
@@ -96,12 +106,16 @@ def _check_shape(text: str, file: str) -> None:
         raise _mistake(file, "file", f"too large, allowed: size <= {LARGEST_FILE} bytes")
     bare = _QUOTED.sub("_", text)
     if max(piece.count(".") for piece in _BETWEEN_KEYS.split(bare)) > LONGEST_DOTTED_KEY:
-        raise _mistake(file, "TOML", f"a key has too many dots, allowed: dots <= {LONGEST_DOTTED_KEY}")
+        raise _mistake(
+            file, "TOML", f"a key has too many dots, allowed: dots <= {LONGEST_DOTTED_KEY}"
+        )
     depth = 0
     for bracket in re.findall(r"[\[\]{}]", bare):
         depth += 1 if bracket in "[{" else -1
         if depth > DEEPEST_NESTING:
-            raise _mistake(file, "TOML", f"nested too deeply, allowed: brackets <= {DEEPEST_NESTING}")
+            raise _mistake(
+                file, "TOML", f"nested too deeply, allowed: brackets <= {DEEPEST_NESTING}"
+            )
 
 
 def count_keys(table: dict[str, Any]) -> int:
@@ -112,7 +126,11 @@ def count_keys(table: dict[str, Any]) -> int:
 def _check_keys(table: dict[str, Any], file: str) -> None:
     """Messages name keys, and each mistake is a message."""
     for key in (key for inner in _tables_of(table) for key in inner if len(key) > LONGEST_KEY):
-        raise _mistake(file, f"{key[:LONGEST_KEY]!r}...", f"a key is too long, allowed: length <= {LONGEST_KEY}")
+        raise _mistake(
+            file,
+            f"{key[:LONGEST_KEY]!r}...",
+            f"a key is too long, allowed: length <= {LONGEST_KEY}",
+        )
     keys = count_keys(table)
     if keys > MOST_KEYS:
         raise _mistake(file, "file", f"{keys} keys, allowed: keys <= {MOST_KEYS}")

@@ -11,7 +11,8 @@ from ..signals import VehicleState
 from ..vehicles import Bounds, RecordedVehicle
 
 _UNIT = 1e-6  # how far the norm of a quaternion may be from 1; our own logs keep it to 1e-15
-MAX_RECORDING = 256 * 2**20  # bytes unpacked; an hour at 120 Hz, and about as much again for the states
+# bytes unpacked; an hour at 120 Hz, and about as much again for the states
+MAX_RECORDING = 256 * 2**20
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,17 +22,23 @@ class RecordedFlight:
     log: Path
 
     def vehicle(self) -> RecordedVehicle:
-        """The vehicle, every state of it checked. Raises InputError when there is no such log, and as `recorded_vehicle`."""
+        """The vehicle, every state of it checked.
+
+        Raises InputError when there is no such log, and as `recorded_vehicle`.
+        """
         if not self.log.is_file():
-            raise InputError(f"log {self.log}: {'not a regular file' if self.log.exists() else 'no such file'}")
+            raise InputError(
+                f"log {self.log}: {'not a regular file' if self.log.exists() else 'no such file'}"
+            )
         return recorded_vehicle(read_log(self.log, MAX_RECORDING), Bounds())
 
 
 def recorded_vehicle(log: Log, bounds: Bounds | None = None) -> RecordedVehicle:
     """The vehicle of a log, its states as they are.
 
-    With `bounds` every state must be finite, a rotation, and believable, as if a model had just given it. Raises LogError when
-    the log has no vehicle, InputError when it has fewer than two states, or a state that is not allowed.
+    With `bounds` every state must be finite, a rotation, and believable, as if a model had just
+    given it. Raises LogError when the log has no vehicle, InputError when it has fewer than two
+    states, or a state that is not allowed.
     """
     columns = (
         log.column("/vehicle", "time_s"),

@@ -26,7 +26,10 @@ DISPENSABLE_TOPICS = ("/tf",)
 _MOST_SKIPPED = 20  # topics; a log has eight
 _LONGEST_DESCRIPTION = 2000  # characters; it goes into every log of a sweep
 _LARGEST_MODEL = 8 << 20  # bytes, of a user's aircraft with all its files; it goes into every log
-_SHORT = text(f"a text of at most {_LONGEST_DESCRIPTION} characters", lambda written: len(written) <= _LONGEST_DESCRIPTION)
+_SHORT = text(
+    f"a text of at most {_LONGEST_DESCRIPTION} characters",
+    lambda written: len(written) <= _LONGEST_DESCRIPTION,
+)
 
 
 def _known_preset(value: Any) -> str:
@@ -44,12 +47,15 @@ def _dispensable(value: Any) -> str:
 class PlatformChoice(ScenarioTable):
     """`[platform]`: exactly one of `preset` and `file`, which `load` checks.
 
-    The file may be anywhere that the user may read, for it is data: a small regular file of checked numbers, or it is refused.
-    Only what is a program, a script, has to lie in the scenario's folder.
+    The file may be anywhere that the user may read, for it is data: a small regular file of checked
+    numbers, or it is refused. Only what is a program, a script, has to lie in the scenario's
+    folder.
     """
 
     preset: Annotated[str, BeforeValidator(_known_preset)] | None = None
-    file: Annotated[str, text("path of a platform file, from the scenario's folder", is_name)] | None = None
+    file: (
+        Annotated[str, text("path of a platform file, from the scenario's folder", is_name)] | None
+    ) = None
 
 
 def _as_tuple(value: Any) -> Any:
@@ -62,15 +68,22 @@ class RecordingTable(ScenarioTable):
     """`[recording]`: ticks in one chunk of the log, and topics left out."""
 
     chunk_ticks: Annotated[int, whole(1, MAX_CHUNK_TICKS)] = 512
-    skip: Annotated[tuple[Annotated[str, BeforeValidator(_dispensable)], ...], BeforeValidator(_as_tuple)] = ()
+    skip: Annotated[
+        tuple[Annotated[str, BeforeValidator(_dispensable)], ...], BeforeValidator(_as_tuple)
+    ] = ()
 
 
 def _many_runs(_: Any) -> None:
-    raise object_to("a sweep stands for many runs; fly them with: atlas-cueing batch FILE -o FOLDER")
+    raise object_to(
+        "a sweep stands for many runs; fly them with: atlas-cueing batch FILE -o FOLDER"
+    )
 
 
 class ScenarioFile(ScenarioTable):
-    """A scenario file; validate it with `context={"folder": ...}`, where user's scripts are looked for."""
+    """A scenario file; validate it with `context={"folder".
+
+    ...}`, where user's scripts are looked for.
+    """
 
     name: Annotated[str, NAME]
     description: Annotated[str, _SHORT] = ""
@@ -106,7 +119,10 @@ class Scenario:
 
     @property
     def flight(self) -> Flight:
-        """What the vehicle flies without a clock. Raises InputError when that flies only live, or is a script not trusted."""
+        """What the vehicle flies without a clock.
+
+        Raises InputError when that flies only live, or is a script not trusted.
+        """
         self._check_trust()
         return self.file.vehicle.flight(self.file.duration_s, self.folder)
 
@@ -117,7 +133,10 @@ class Scenario:
 
     @property
     def live_flight(self) -> LiveFlight:
-        """What the vehicle flies in real time, whatever its source. Raises InputError for a script that is not trusted."""
+        """What the vehicle flies in real time, whatever its source.
+
+        Raises InputError for a script that is not trusted.
+        """
         self._check_trust()
         return self.file.vehicle.live_flight(self.file.duration_s, self.folder)
 
@@ -140,8 +159,9 @@ class Scenario:
         script, model = self._users()
         if (script or model) and not self.trust_models:
             raise InputError(
-                f"{script or model}: this {'script' if script else 'aircraft'} is not one of JSBSim's own, and it is a "
-                "program; if you trust whoever wrote it, fly it with --trust-models"
+                f"{script or model}: this {'script' if script else 'aircraft'} is not one of"
+                " JSBSim's own, and it is a program; if you trust whoever wrote it, fly it with"
+                " --trust-models"
             )
 
     def _users(self) -> tuple[Path | None, Path | None]:
@@ -149,14 +169,18 @@ class Scenario:
         return vehicle.user_script(self.folder), vehicle.user_aircraft(self.folder)
 
     def scenario_toml(self) -> str:
-        """The scenario with all defaults written out; its platform is `platform.toml`, and a user's script lies beside it."""
+        """The scenario with all defaults written out.
+
+        Its platform is `platform.toml`, and a user's script lies beside it.
+        """
         table = _plain(self.file)
         table["platform"] = {"file": "platform.toml"}
         if not self.file.vehicle.input:
             del table["vehicle"]["input"]  # a script must not have any
         script = self.file.vehicle.user_script(self.folder)
         if script is not None:
-            table["vehicle"]["script"] = f"./{utf8(script.name)}"  # never mistaken for one of JSBSim's own
+            # never mistaken for one of JSBSim's own
+            table["vehicle"]["script"] = f"./{utf8(script.name)}"
         return tomli_w.dumps(table)
 
     def platform_toml(self) -> str:
@@ -205,5 +229,8 @@ def _read_all(files: dict[str, Path]) -> dict[str, bytes]:
     contents = {relative: read_users(path) for relative, path in files.items()}
     size = sum(map(len, contents.values()))
     if size > _LARGEST_MODEL:
-        raise InputError(f"{next(iter(files.values()))}: with what it names {size} bytes, allowed: {_LARGEST_MODEL}")
+        raise InputError(
+            f"{next(iter(files.values()))}: with what it names {size} bytes, allowed:"
+            f" {_LARGEST_MODEL}"
+        )
     return contents

@@ -14,7 +14,8 @@ from .tables import ScenarioTable, number, object_to, refuse
 Time: TypeAlias = Annotated[float, number(0.0, 86400.0)]  # s; a day
 Frequency: TypeAlias = Annotated[float, number(0.001, 1000.0)]
 
-_FREQUENCIES = {"sine": ("frequency_rad_s",), "sweep": ("frequency_rad_s", "end_frequency_rad_s")}  # keys that a shape needs
+# keys that a shape needs
+_FREQUENCIES = {"sine": ("frequency_rad_s",), "sweep": ("frequency_rad_s", "end_frequency_rad_s")}
 
 
 def _one_of(names: Collection[str]) -> BeforeValidator:
@@ -30,7 +31,10 @@ def _one_of(names: Collection[str]) -> BeforeValidator:
 
 
 class SignalTable(ScenarioTable):
-    """One `[[vehicle.signal]]`: see vehicles.Signal. Which keys an axis and a shape need, `signal_rules` checks."""
+    """One `[[vehicle.signal]]`: see vehicles.Signal.
+
+    Which keys an axis and a shape need, `signal_rules` checks.
+    """
 
     axis: Annotated[SignalAxis, _one_of(RATE_AXES + FORCE_AXES)]
     shape: Annotated[Shape, _one_of(SHAPES)]
@@ -56,7 +60,11 @@ class SignalTable(ScenarioTable):
         return Signal(
             axis=self.axis,
             shape=self.shape,
-            amplitude=radians(self.amplitude_deg_s or 0.0) if self.axis in RATE_AXES else self.amplitude_m_s2 or 0.0,
+            amplitude=(
+                radians(self.amplitude_deg_s or 0.0)
+                if self.axis in RATE_AXES
+                else self.amplitude_m_s2 or 0.0
+            ),
             time=self.time_s,
             duration=self.duration_s,
             ramp=self.ramp_s,
@@ -66,7 +74,10 @@ class SignalTable(ScenarioTable):
 
 
 def signal_rules(signal: dict[str, Any]) -> list[tuple[str, str]]:
-    """Missing and superfluous keys of one signal; none for an axis or shape that is a mistake itself."""
+    """Missing and superfluous keys of one signal.
+
+    None for an axis or shape that is a mistake itself.
+    """
     axis, shape = signal.get("axis"), signal.get("shape")
     rules: list[tuple[str, bool, str]] = []  # key, whether it belongs here, and with what
     if axis in RATE_AXES + FORCE_AXES:
@@ -76,4 +87,7 @@ def signal_rules(signal: dict[str, Any]) -> list[tuple[str, str]]:
         needed = _FREQUENCIES.get(str(shape), ())
         rules += [(key, key in needed, f"shape = {shape!r}") for key in _FREQUENCIES["sweep"]]
     wrong = [(key, belongs, owner) for key, belongs, owner in rules if (key in signal) != belongs]
-    return [(key, f"missing, needed with {owner}" if belongs else f"not with {owner}") for key, belongs, owner in wrong]
+    return [
+        (key, f"missing, needed with {owner}" if belongs else f"not with {owner}")
+        for key, belongs, owner in wrong
+    ]

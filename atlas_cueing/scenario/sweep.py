@@ -7,8 +7,8 @@
     seed = 1
     cueing.align_rate_deg_s = { low = 0.5, high = 10.0, log = true }   # a range, uniform or uniform in the logarithm
 
-Keys are those of `--set`. Every range has a stream of random numbers of its own: another range beside it changes nothing, and
-every point of the grid gets the same draws, so that they compare.
+Keys are those of `--set`. Every range has a stream of random numbers of its own: another range
+beside it changes nothing, and every point of the grid gets the same draws, so that they compare.
 """
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
@@ -33,7 +33,9 @@ from .reading import count_keys, read_toml
 from .scenario import Scenario
 from .tables import Finite, ScenarioTable, whole
 
-MAX_RUNS = 10_000  # of one file; a grid of a few more keys than meant has millions, and all are checked before the first flies
+# of one file; a grid of a few more keys than meant has millions, and all are checked before the
+# first flies
+MAX_RUNS = 10_000
 MAX_KEYS_CHECKED = 500_000  # keys of the file times runs: up to 2 us and 130 bytes each
 MAX_KEYS = 16  # of one sweep; each is a stream of random numbers as long as the draws
 MAX_MISTAKES = 50  # of one sweep, where a single wrong value may spoil thousands of runs ...
@@ -49,7 +51,9 @@ _NAMES: dict[Key, Callable[[], Collection[str]]] = {
     ("platform", "preset"): presets,
     ("cueing", "method"): lambda: METHODS,
 }
-_ALLOWED = "allowed: a list of values, or a range { low = ..., high = ... } together with sweep.draws"
+_ALLOWED = (
+    "allowed: a list of values, or a range { low = ..., high = ... } together with sweep.draws"
+)
 
 Choices: TypeAlias = dict[Key, Sequence[Any]]
 
@@ -74,10 +78,15 @@ class _Counts(ScenarioTable):
 
 
 def scenario_files(folder: str | Path) -> list[Path]:
-    """The scenario files of a folder, by name, without platform files among them. Raises ScenarioError if there are none."""
+    """The scenario files of a folder, by name, without platform files among them.
+
+    Raises ScenarioError if there are none.
+    """
     files = [path for path in sorted(Path(folder).glob("*.toml")) if not _is_platform(path)]
     if not files:
-        raise ScenarioError([Mistake(str(folder), "folder", "", "no scenario files (*.toml) in it")])
+        raise ScenarioError(
+            [Mistake(str(folder), "folder", "", "no scenario files (*.toml) in it")]
+        )
     return files
 
 
@@ -89,12 +98,14 @@ def _is_platform(path: Path) -> bool:
     return "sphere" in data and "vehicle" not in data
 
 
-def load_variants(path: str | Path, overrides: Sequence[str] = (), *, trust_models: bool = False) -> list[Variant]:
+def load_variants(
+    path: str | Path, overrides: Sequence[str] = (), *, trust_models: bool = False
+) -> list[Variant]:
     """Every run that a scenario file stands for: one, or as many as its sweep has.
 
-    `overrides` are as for `load_scenario`; one of a swept key takes the key out of the sweep, and one below `sweep.` changes
-    the sweep itself; `trust_models` is as there. Raises ScenarioError with every mistake of the sweep, or else of the runs,
-    each once.
+    `overrides` are as for `load_scenario`; one of a swept key takes the key out of the sweep, and
+    one below `sweep.` changes the sweep itself; `trust_models` is as there. Raises ScenarioError
+    with every mistake of the sweep, or else of the runs, each once.
     """
     settings, path = parse_overrides(overrides), Path(path)
     of_sweep = {key: value for key, value in settings.items() if key[0] == _SWEEP}
@@ -111,7 +122,11 @@ def load_variants(path: str | Path, overrides: Sequence[str] = (), *, trust_mode
 
 
 def _resolved(
-    data: dict[str, Any], others: Overrides, points: Iterable[Overrides], path: Path, trust_models: bool
+    data: dict[str, Any],
+    others: Overrides,
+    points: Iterable[Overrides],
+    path: Path,
+    trust_models: bool,
 ) -> list[Variant]:
     variants, spoilt = [], 0
     found: dict[Mistake, None] = {}  # an ordered set
@@ -120,7 +135,9 @@ def _resolved(
         swept = {dotted(key): value for key, value in point.items()}
         try:
             settings = {**others, **point}
-            scenario = resolve(with_own(data, settings), settings, path, trust_models=trust_models, known=known)
+            scenario = resolve(
+                with_own(data, settings), settings, path, trust_models=trust_models, known=known
+            )
             variants.append(Variant(scenario, swept))
             _settle(data, scenario, settings)
         except ScenarioError as error:
@@ -134,7 +151,10 @@ def _resolved(
 
 
 def _settle(data: dict[str, Any], scenario: Scenario, settings: Overrides) -> None:
-    """Put in place of long lists what has been made of them, when no run sets anything there: checked once, and kept once."""
+    """Put in place of long lists what has been made of them, when no run sets anything there.
+
+    Checked once, and kept once.
+    """
     for name in _LISTS:
         checked = getattr(scenario.file.vehicle, name)
         set_anew = any(key[:2] in (("vehicle",), ("vehicle", name)) for key in settings)
@@ -153,11 +173,15 @@ def _of_sweep(mistake: Mistake, swept: Collection[str], path: Path) -> Mistake:
 def _points(table: Any, others: Overrides, keys: int, name_file: FileNamer) -> Iterator[Overrides]:
     """What every run sets, in a file of so many keys."""
     if not isinstance(table, dict):
-        raise ScenarioError([Mistake(name_file((_SWEEP,)), _SWEEP, shown(table), "allowed: a table")])
+        raise ScenarioError(
+            [Mistake(name_file((_SWEEP,)), _SWEEP, shown(table), "allowed: a table")]
+        )
     counts, mistakes = _counts(table, name_file)
     grid: Choices = {}
     ranges: dict[Key, _Range] = {}
-    for key, value in _leaves({name: inner for name, inner in table.items() if name not in _COUNTS}):
+    for key, value in _leaves(
+        {name: inner for name, inner in table.items() if name not in _COUNTS}
+    ):
         choice = _choice(key, value)
         if isinstance(choice, str):
             full = (_SWEEP, *key)
@@ -166,9 +190,14 @@ def _points(table: Any, others: Overrides, keys: int, name_file: FileNamer) -> I
             ranges[key] = choice
         else:
             grid[key] = choice
-    mistakes += [Mistake(name_file((_SWEEP,)), _SWEEP, "", wrong) for wrong in _disagreement(grid, ranges, counts, keys)]
+    mistakes += [
+        Mistake(name_file((_SWEEP,)), _SWEEP, "", wrong)
+        for wrong in _disagreement(grid, ranges, counts, keys)
+    ]
     if mistakes:
-        raise ScenarioError(mistakes[:MAX_MISTAKES] + more(len(mistakes) - MAX_MISTAKES, name_file((_SWEEP,))))
+        raise ScenarioError(
+            mistakes[:MAX_MISTAKES] + more(len(mistakes) - MAX_MISTAKES, name_file((_SWEEP,)))
+        )
     grid = {key: values for key, values in grid.items() if key not in others}
     ranges = {key: bounds for key, bounds in ranges.items() if key not in others}
     return _combined(grid, ranges, counts)
@@ -180,7 +209,10 @@ def _counts(table: dict[str, Any], name_file: FileNamer) -> tuple[_Counts, list[
         return _Counts.model_validate(given), []
     except ValidationError as error:
         wrong = mistakes_of(error, _Counts, given, name_file)
-        return _Counts(draws=1), [Mistake(name_file((_SWEEP, m.key)), f"{_SWEEP}.{m.key}", m.value, m.allowed) for m in wrong]
+        return _Counts(draws=1), [
+            Mistake(name_file((_SWEEP, m.key)), f"{_SWEEP}.{m.key}", m.value, m.allowed)
+            for m in wrong
+        ]
 
 
 def _leaves(table: dict[str, Any], above: Key = ()) -> Iterator[tuple[Key, Any]]:
@@ -203,7 +235,10 @@ def _choice(key: Key, value: Any) -> Sequence[Any] | _Range | str:
         known = _NAMES[key]()
         if len(value) > _LONGEST_PATTERN:
             return f"a pattern is too long, allowed: length <= {_LONGEST_PATTERN}"
-        return sorted(name for name in known if fnmatchcase(name, value)) or f"no such name; {nearest(value, known)}"
+        return (
+            sorted(name for name in known if fnmatchcase(name, value))
+            or f"no such name; {nearest(value, known)}"
+        )
     return _ALLOWED
 
 
@@ -213,10 +248,14 @@ def _range(value: dict[str, Any]) -> _Range | str:
         bounds = _Range.model_validate(value)
     except ValidationError:
         return allowed
-    return bounds if bounds.low < bounds.high and not (bounds.log and bounds.low <= 0.0) else allowed
+    return (
+        bounds if bounds.low < bounds.high and not (bounds.log and bounds.low <= 0.0) else allowed
+    )
 
 
-def _disagreement(grid: Choices, ranges: dict[Key, _Range], counts: _Counts, keys: int) -> list[str]:
+def _disagreement(
+    grid: Choices, ranges: dict[Key, _Range], counts: _Counts, keys: int
+) -> list[str]:
     if not grid and not ranges:
         return ["nothing to sweep; " + _ALLOWED]
     if bool(ranges) != (counts.draws is not None):
@@ -226,7 +265,11 @@ def _disagreement(grid: Choices, ranges: dict[Key, _Range], counts: _Counts, key
     runs = prod(map(len, grid.values())) * (counts.draws or 1)
     most = min(MAX_RUNS, MAX_KEYS_CHECKED // max(keys, 1))
     of_size = f" of a file of {keys} keys" if most < MAX_RUNS else ""
-    return [f"{runs} runs{of_size}, allowed: runs <= {most}; several files may share the rest"] if runs > most else []
+    return (
+        [f"{runs} runs{of_size}, allowed: runs <= {most}; several files may share the rest"]
+        if runs > most
+        else []
+    )
 
 
 def _combined(grid: Choices, ranges: dict[Key, _Range], counts: _Counts) -> Iterator[Overrides]:
@@ -242,5 +285,8 @@ def _drawn(bounds: _Range, counts: _Counts, name: str) -> list[float]:
     shares = [stream.random() for _ in range(counts.draws or 1)]
     if bounds.log:
         least, most = log(bounds.low), log(bounds.high)
-        return [min(max(exp(least + share * (most - least)), bounds.low), bounds.high) for share in shares]
+        return [
+            min(max(exp(least + share * (most - least)), bounds.low), bounds.high)
+            for share in shares
+        ]
     return [bounds.low + share * (bounds.high - bounds.low) for share in shares]

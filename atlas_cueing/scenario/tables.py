@@ -1,4 +1,7 @@
-"""A table of a file: what its keys may hold. Each mistake gets one message that says what is allowed."""
+"""A table of a file: what its keys may hold.
+
+Each mistake gets one message that says what is allowed.
+"""
 
 from collections.abc import Callable
 from math import isfinite
@@ -33,7 +36,11 @@ def number(lower: float, upper: float, *, above: bool = False) -> BeforeValidato
     def check(value: Any) -> float:
         """The value, or a refusal that tells what is allowed."""
         # An integer of TOML has no bound, and float() of a huge one overflows: compare first.
-        if isinstance(value, bool) or not isinstance(value, int | float) or not lower <= value <= upper:
+        if (
+            isinstance(value, bool)
+            or not isinstance(value, int | float)
+            or not lower <= value <= upper
+        ):
             raise refuse(text)
         if above and value == lower:
             raise refuse(text)
@@ -55,7 +62,11 @@ def whole(lower: int, upper: int) -> BeforeValidator:
 
 
 def _finite(value: Any) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(_to_float(value)):
+    if (
+        isinstance(value, bool)
+        or not isinstance(value, int | float)
+        or not isfinite(_to_float(value))
+    ):
         raise refuse("a finite number")
     return float(value)
 
@@ -85,7 +96,9 @@ def check_text(value: Any, allowed: str) -> None:
     """Refuse what is no string; of a number it is said how it is written as a text."""
     if isinstance(value, str):
         return
-    number = isinstance(value, int | float) and not isinstance(value, bool) and _has_few_digits(value)
+    number = (
+        isinstance(value, int | float) and not isinstance(value, bool) and _has_few_digits(value)
+    )
     quoted = f'; as a text: "{value}", in a shell \'"{value}"\'' if number else ""
     raise refuse(f"{allowed}{quoted}")
 

@@ -48,7 +48,10 @@ _KEYS = {  # of each source, and of no other; those of two sources are in both
 }
 _ONLY_LIVE = {
     _FLIGHTGEAR: "source = 'flightgear' flies only live: atlas-cueing live FILE",
-    _RECORDING: "source = 'recording' flies only live: atlas-cueing live FILE; without a clock: atlas-cueing recue LOG",
+    _RECORDING: (
+        "source = 'recording' flies only live: atlas-cueing live FILE; without a clock:"
+        " atlas-cueing recue LOG"
+    ),
 }
 
 
@@ -64,7 +67,9 @@ def _loopback(value: Any) -> str:
             return value
     except AddressValueError:
         pass
-    raise refuse(f"{LOOPBACK!r} or another loopback address; packets from other machines are not taken yet")
+    raise refuse(
+        f"{LOOPBACK!r} or another loopback address; packets from other machines are not taken yet"
+    )
 
 
 def _known(kind: str, names: Collection[str], value: Any) -> str:
@@ -91,7 +96,9 @@ def _known_script(value: Any, info: ValidationInfo) -> str:
     folder: Path = (info.context or {})["folder"]
     if isinstance(value, str) and is_name(value) and within(folder, value):
         return value
-    return _known("scripts, or a file in the scenario's folder (links resolved)", own_scripts(), value)
+    return _known(
+        "scripts, or a file in the scenario's folder (links resolved)", own_scripts(), value
+    )
 
 
 class InitialTable(ScenarioTable):
@@ -126,7 +133,9 @@ class InputTable(ScenarioTable):
     """One `[[vehicle.input]]`: see vehicles.TimedInput."""
 
     time_s: Time
-    property: Annotated[str, text("name of a JSBSim property", lambda name: 0 < len(name) <= _LONGEST_PROPERTY)]
+    property: Annotated[
+        str, text("name of a JSBSim property", lambda name: 0 < len(name) <= _LONGEST_PROPERTY)
+    ]
     value: Finite
     ramp_s: Time = 0.0
 
@@ -143,17 +152,23 @@ def _tables(name: str) -> BeforeValidator:
         if not isinstance(value, list | tuple):
             raise refuse(f"tables, written [[vehicle.{name}]]")
         if len(value) > _MOST_TABLES:
-            raise object_to(f"{len(value)} tables [[vehicle.{name}]], allowed: at most {_MOST_TABLES}")
+            raise object_to(
+                f"{len(value)} tables [[vehicle.{name}]], allowed: at most {_MOST_TABLES}"
+            )
         return tuple(value)
 
     return BeforeValidator(check)
 
 
 class VehicleTable(ScenarioTable):
-    """`[vehicle]`: a source and its own keys, which `vehicle_rules` checks: exactly one of `script` and `aircraft`, ...
+    """`[vehicle]`: a source and its own keys, which `vehicle_rules` checks.
 
-    host, port: where packets of a `flightgear` source come in; rate_hz: how many a second, nominally.
-    log: the log (MCAP) that a `recording` plays, from the scenario's folder; anywhere, for it is data, as a platform file is.
+    Exactly one of `script` and `aircraft`, ...
+
+    host, port: where packets of a `flightgear` source come in; rate_hz: how many a second,
+        nominally.
+    log: the log (MCAP) that a `recording` plays, from the scenario's folder; anywhere, for it is
+        data, as a platform file is.
     """
 
     source: Annotated[str, BeforeValidator(_known_source)] = _JSBSIM
@@ -166,11 +181,20 @@ class VehicleTable(ScenarioTable):
     force_follows_attitude: bool | None = None
     host: Annotated[str, BeforeValidator(_loopback)] | None = None
     port: Annotated[int, whole(1, 65535)] | None = None
-    log: Annotated[str, text("path of a log", lambda path: is_name(path) and len(path) <= _LONGEST_PATH)] | None = None
+    log: (
+        Annotated[
+            str, text("path of a log", lambda path: is_name(path) and len(path) <= _LONGEST_PATH)
+        ]
+        | None
+    ) = None
 
     def user_script(self, folder: Path) -> Path | None:
         """The script file beside the scenario; None for one of JSBSim's own and for an aircraft."""
-        return within(folder, self.script) if self.script is not None and self.script not in own_scripts() else None
+        return (
+            within(folder, self.script)
+            if self.script is not None and self.script not in own_scripts()
+            else None
+        )
 
     def user_aircraft(self, folder: Path) -> Path | None:
         """The model beside the scenario; None for one of JSBSim's own and for a script."""
@@ -186,12 +210,15 @@ class VehicleTable(ScenarioTable):
             raise InputError(_ONLY_LIVE[self.source])
         if self.source == _SIGNAL:
             signals = tuple(table.signal() for table in self.signal or ())
-            return SignalFlight(signals, self.rate_hz, duration, self.force_follows_attitude is not False)
+            return SignalFlight(
+                signals, self.rate_hz, duration, self.force_follows_attitude is not False
+            )
         if self.script is not None:
             mine = self.user_script(folder)
             script = mine or own_scripts()[self.script]
             return ScriptFlight(script, self.rate_hz, duration, folder if mine else None)
-        assert self.aircraft is not None and self.initial is not None  # noqa: S101, PT018 - vehicle_rules
+        # Vehicle_rules
+        assert self.aircraft is not None and self.initial is not None  # noqa: S101, PT018
         inputs = tuple(event.event() for event in self.input)
         initial, models = self.initial.conditions(), folder if self.user_aircraft(folder) else None
         return AircraftFlight(self.aircraft, initial, inputs, self.rate_hz, duration, models)
@@ -199,7 +226,9 @@ class VehicleTable(ScenarioTable):
     def live_flight(self, duration: float | None, folder: Path) -> LiveFlight:
         """What to fly in real time; `folder` is also where a log is looked for."""
         if self.source == _FLIGHTGEAR:
-            return FlightgearFlight(self.host or LOOPBACK, self.port or DEFAULT_PORT, self.rate_hz or DEFAULT_RATE_HZ)
+            return FlightgearFlight(
+                self.host or LOOPBACK, self.port or DEFAULT_PORT, self.rate_hz or DEFAULT_RATE_HZ
+            )
         if self.source == _RECORDING:
             assert self.log is not None  # noqa: S101 - vehicle_rules
             return RecordedFlight(folder / self.log)
@@ -224,7 +253,9 @@ def vehicle_rules(data: dict[str, Any]) -> list[tuple[Key, str]]:
     return mistakes
 
 
-def unsettable_inputs(data: dict[str, Any], folder: Path, trusted: bool) -> list[tuple[Key, str, str]]:
+def unsettable_inputs(
+    data: dict[str, Any], folder: Path, trusted: bool
+) -> list[tuple[Key, str, str]]:
     """Inputs on properties that cannot be set, or are none: (key, value, what is wrong) for each.
 
     An aircraft that does not load is a mistake itself. One of the user's own is looked at only when
@@ -232,7 +263,11 @@ def unsettable_inputs(data: dict[str, Any], folder: Path, trusted: bool) -> list
     """
     vehicle = data.get("vehicle")
     inputs = vehicle.get("input") if isinstance(vehicle, dict) else None
-    if not isinstance(vehicle, dict) or not isinstance(inputs, list | tuple) or len(inputs) > _MOST_TABLES:
+    if (
+        not isinstance(vehicle, dict)
+        or not isinstance(inputs, list | tuple)
+        or len(inputs) > _MOST_TABLES
+    ):
         return []
     aircraft = str(vehicle.get("aircraft", ""))
     mine = aircraft not in own_aircraft()
@@ -240,7 +275,9 @@ def unsettable_inputs(data: dict[str, Any], folder: Path, trusted: bool) -> list
         return []
     names = {i: name for i, event in enumerate(inputs) if (name := _property(event))}
     try:
-        wrong = input_objections(aircraft, folder if mine else None, names.values()) if names else {}
+        wrong = (
+            input_objections(aircraft, folder if mine else None, names.values()) if names else {}
+        )
     except StartError as error:
         reason = str(error).removeprefix(f"{AIRCRAFT_KEY} = {aircraft!r}: ")
         return [(("vehicle", AIRCRAFT_KEY), shown(aircraft), reason)]
@@ -259,10 +296,19 @@ def _property(event: Any) -> str:
 def _strangers(vehicle: dict[str, Any], source: str) -> list[tuple[Key, str]]:
     """Keys that belong to other sources: named are those of a source of one's own, or else the source itself."""
     mistakes: list[tuple[Key, str]] = []
-    for key in [key for key in dict.fromkeys(sum(_KEYS.values(), ())) if key in vehicle and key not in _KEYS[source]]:
+    for key in [
+        key
+        for key in dict.fromkeys(sum(_KEYS.values(), ()))
+        if key in vehicle and key not in _KEYS[source]
+    ]:
         owners = [owner for owner, keys in _KEYS.items() if key in keys]
         only = source == _JSBSIM and len(owners) == 1
-        mistakes.append((("vehicle", key), f"only with source = {owners[0]!r}" if only else f"not with source = {source!r}"))
+        mistakes.append(
+            (
+                ("vehicle", key),
+                f"only with source = {owners[0]!r}" if only else f"not with source = {source!r}",
+            )
+        )
     return mistakes
 
 
@@ -270,7 +316,11 @@ def _jsbsim_rules(data: dict[str, Any], vehicle: dict[str, Any]) -> list[tuple[K
     if ("script" in vehicle) == ("aircraft" in vehicle):
         return [(("vehicle",), "exactly one of script and aircraft")]
     if "script" in vehicle:
-        return [(("vehicle", key), "not with script, which has its own") for key in ("initial", "input") if key in vehicle]
+        return [
+            (("vehicle", key), "not with script, which has its own")
+            for key in ("initial", "input")
+            if key in vehicle
+        ]
     mistakes: list[tuple[Key, str]] = []
     if "initial" not in vehicle:
         mistakes.append((("vehicle", "initial"), "missing, an aircraft needs initial conditions"))
@@ -287,5 +337,7 @@ def _signal_flight_rules(vehicle: dict[str, Any]) -> list[tuple[Key, str]]:
     each = enumerate(signals) if isinstance(signals, list) else ()
     for i, signal in each:
         if isinstance(signal, dict):
-            mistakes += [(("vehicle", "signal", i, key), allowed) for key, allowed in signal_rules(signal)]
+            mistakes += [
+                (("vehicle", "signal", i, key), allowed) for key, allowed in signal_rules(signal)
+            ]
     return mistakes

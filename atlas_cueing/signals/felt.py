@@ -18,7 +18,9 @@ def felt(
 
     q_WS (n, 4); w_WS_W rad/s, alpha_WS_W rad/s^2, a_WS_W m/s^2 (n, 3) in W; head_S (3,) m from the sphere centre in S.
     """
-    q, w, alpha, a, head = (np.asarray(x, dtype=np.float64) for x in (q_WS, w_WS_W, alpha_WS_W, a_WS_W, head_S))
+    q, w, alpha, a, head = (
+        np.asarray(x, dtype=np.float64) for x in (q_WS, w_WS_W, alpha_WS_W, a_WS_W, head_S)
+    )
     force_W = a + np.array([0.0, 0.0, STANDARD_GRAVITY])
     if head.any():
         r = _turn(q, np.broadcast_to(head, w.shape))

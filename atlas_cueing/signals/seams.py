@@ -17,7 +17,10 @@ class Vehicle(Protocol):
         """State at the present time; the first one has time 0."""
 
     def advance(self) -> bool:
-        """Go one step on; False when the flight is over. Raises VehicleError when the model fails."""
+        """Go one step on; False when the flight is over.
+
+        Raises VehicleError when the model fails.
+        """
 
 
 class WheelDrive(Protocol):

@@ -1,11 +1,13 @@
 """What is known at one tick, stage by stage.
 
-All fields are floats or tuples of floats, SI and rad, with the frame in the name: `q_WS` turns S-vectors into W-vectors,
-`w_WS_W` is the angular velocity of S in W expressed in W (the paper's Omega). `Cue` is what is asked and `Motion` what is
-allowed: only smoothing makes a Motion, and wheels take nothing else.
+All fields are floats or tuples of floats, SI and rad, with the frame in the name: `q_WS` turns
+S-vectors into W-vectors, `w_WS_W` is the angular velocity of S in W expressed in W (the paper's
+Omega). `Cue` is what is asked and `Motion` what is allowed: only smoothing makes a Motion, and
+wheels take nothing else.
 
-These are made anew every tick, so each has a plain `__init__`: a frozen dataclass takes 2.5 times as long, and 25 times where
-the code is compiled. `Final` keeps them as they are (for the type checker, and at run time where compiled).
+These are made anew every tick, so each has a plain `__init__`: a frozen dataclass takes 2.5 times
+as long, and 25 times where the code is compiled. `Final` keeps them as they are (for the type
+checker, and at run time where compiled).
 """
 
 # mypyc: runs every tick
@@ -46,7 +48,9 @@ class Cue:
     v_WS_W: Final[Vec3]
     a_WS_W: Final[Vec3]
 
-    def __init__(self, time: float, q_WS: Quat, w_WS_W: Vec3, p_WS_W: Vec3, v_WS_W: Vec3, a_WS_W: Vec3) -> None:
+    def __init__(
+        self, time: float, q_WS: Quat, w_WS_W: Vec3, p_WS_W: Vec3, v_WS_W: Vec3, a_WS_W: Vec3
+    ) -> None:
         self.time = time
         self.q_WS = q_WS
         self.w_WS_W = w_WS_W
@@ -57,7 +61,10 @@ class Cue:
 
 @dataclass(slots=True, init=False)
 class Motion:
-    """Motion allowed at `time`, inside every limit; `limited` is (wheels, stage), 1.0 where the cue was not reached."""
+    """Motion allowed at `time`, inside every limit.
+
+    `limited` is (wheels, stage), 1.0 where the cue was not reached.
+    """
 
     time: Final[float]
     q_WS: Final[Quat]
@@ -112,7 +119,9 @@ class Tick:
     motion: Final[Motion]
     wheels: Final[WheelSpeeds]
 
-    def __init__(self, vehicle: VehicleState, cue: Cue, motion: Motion, wheels: WheelSpeeds) -> None:
+    def __init__(
+        self, vehicle: VehicleState, cue: Cue, motion: Motion, wheels: WheelSpeeds
+    ) -> None:
         self.vehicle = vehicle
         self.cue = cue
         self.motion = motion
@@ -141,7 +150,14 @@ class Timing:
     state: Final[float]
 
     def __init__(
-        self, time: float, elapsed: float, lateness: float, cost: float, input_age: float, missed: float, state: float
+        self,
+        time: float,
+        elapsed: float,
+        lateness: float,
+        cost: float,
+        input_age: float,
+        missed: float,
+        state: float,
     ) -> None:
         self.time = time
         self.elapsed = elapsed

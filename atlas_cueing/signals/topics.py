@@ -1,8 +1,9 @@
 """The one table of what a log holds: topics, message names, fields with their units.
 
-Every message is flat and all its fields are doubles (`/status` and `/tf` apart, which the recording describes), so that plot
-tools draw one line a field and a message has a fixed layout on the wire. `tick_row` gives the numbers of the first four
-topics in the order of the table; `/felt` is derived from them.
+Every message is flat and all its fields are doubles (`/status` and `/tf` apart, which the recording
+describes), so that plot tools draw one line a field and a message has a fixed layout on the wire.
+`tick_row` gives the numbers of the first four topics in the order of the table; `/felt` is derived
+from them.
 """
 
 # mypyc: runs every tick
@@ -34,8 +35,16 @@ def _fields(quaternion: str, vectors: str) -> tuple[str, ...]:
 TOPICS = (
     Topic("/vehicle", "atlas.Vehicle", _fields("q_nb", "w f")),
     Topic("/cue", "atlas.Cue", _fields("q_ws", "w p v a")),
-    Topic("/motion", "atlas.Motion", (*_fields("q_ws", "w alpha p v a"), "wheels_limited", "stage_limited")),
-    Topic("/wheels", "atlas.Wheels", ("time_s", "w1_rad_s", "w2_rad_s", "w3_rad_s", "a1_rad_s2", "a2_rad_s2", "a3_rad_s2")),
+    Topic(
+        "/motion",
+        "atlas.Motion",
+        (*_fields("q_ws", "w alpha p v a"), "wheels_limited", "stage_limited"),
+    ),
+    Topic(
+        "/wheels",
+        "atlas.Wheels",
+        ("time_s", "w1_rad_s", "w2_rad_s", "w3_rad_s", "a1_rad_s2", "a2_rad_s2", "a3_rad_s2"),
+    ),
     Topic("/felt", "atlas.Felt", (*_fields("", "f w"), "direction_error_rad")),
 )
 
@@ -56,11 +65,19 @@ LIVE_TOPICS = (*TOPICS[:-1], TIMING, TOPICS[-1])
 
 def tick_row(tick: Tick) -> tuple[float, ...]:
     """All numbers of a tick in the order of the first four topics of `TOPICS`."""
-    # Written out, since unpacking one vector after the other takes three times as long where the code is compiled.
+    # Written out, since unpacking one vector after the other takes three times as long where the
+    # code is compiled.
     vehicle, cue, motion, wheels = tick.vehicle, tick.cue, tick.motion, tick.wheels
     q_NB, w_NB, f = vehicle.q_NB, vehicle.w_NB_B, vehicle.f_B
     q_cue, w_cue, p_cue, v_cue, a_cue = cue.q_WS, cue.w_WS_W, cue.p_WS_W, cue.v_WS_W, cue.a_WS_W
-    q, w, alpha, p, v, a = motion.q_WS, motion.w_WS_W, motion.alpha_WS_W, motion.p_WS_W, motion.v_WS_W, motion.a_WS_W
+    q, w, alpha, p, v, a = (
+        motion.q_WS,
+        motion.w_WS_W,
+        motion.alpha_WS_W,
+        motion.p_WS_W,
+        motion.v_WS_W,
+        motion.a_WS_W,
+    )
     u, du, limited = wheels.speed, wheels.acceleration, motion.limited
     # fmt: off
     return (

@@ -25,7 +25,8 @@ from ruckig import ControlInterface, InputParameter, Result, Ruckig, RuckigError
 from ..errors import PlanningError
 from .stop import Stop
 
-_ROUNDING = 1e-9  # share of each limit left unused, so that finite differences of what is flown stay inside it
+# share of each limit left unused, so that finite differences of what is flown stay inside it
+_ROUNDING = 1e-9
 
 
 @dataclass(slots=True, init=False)
@@ -48,22 +49,36 @@ class AxisSmoothing:
     """Tracking of a speed and acceleration inside the limits, one tick at a time."""
 
     def __init__(self, dt: float, speed: float, acceleration: float, jerk: float) -> None:
-        """Limits are magnitudes; dt in s. Raises ValueError for limits that are not positive or leave no room between ticks.
+        """Limits are magnitudes; dt in s.
 
-        Between ticks the speed stays within J dt^2 / 8 of the line between its ends, so that much of it is left unused.
+        Raises ValueError for limits that are not positive or leave no room between ticks.
+
+        Between ticks the speed stays within J dt^2 / 8 of the line between its ends, so that much
+        of it is left unused.
         """
         bend = jerk * dt * dt / 8.0
         if not all(isfinite(x) and x > 0.0 for x in (dt, speed - bend, acceleration, jerk)):
-            raise ValueError(f"0 < dt, acceleration, jerk and jerk dt^2 / 8 < speed; got {dt}, {acceleration}, {jerk}, {speed}")
+            raise ValueError(
+                f"0 < dt, acceleration, jerk and jerk dt^2 / 8 < speed; got {dt}, {acceleration},"
+                f" {jerk}, {speed}"
+            )
         self.dt = dt
-        self.speed, self.acceleration, self.jerk = ((1.0 - _ROUNDING) * x for x in (speed - bend, acceleration, jerk))
-        self._cruise = self.speed - 0.5 * self.acceleration**2 / self.jerk  # below it every acceleration is fine
-        self._generator, self._input, self._trajectory = Ruckig(1, dt), InputParameter(1), Trajectory(1)
+        self.speed, self.acceleration, self.jerk = (
+            (1.0 - _ROUNDING) * x for x in (speed - bend, acceleration, jerk)
+        )
+        # below it every acceleration is fine
+        self._cruise = self.speed - 0.5 * self.acceleration**2 / self.jerk
+        self._generator, self._input, self._trajectory = (
+            Ruckig(1, dt),
+            InputParameter(1),
+            Trajectory(1),
+        )
         self._input.control_interface = ControlInterface.Velocity
         self._input.current_position = [0.0]
         self._input.max_velocity, self._input.max_acceleration = [self.speed], [self.acceleration]
         self._input.max_jerk = [self.jerk]
-        self._input.minimum_duration = dt  # a target may be met at the tick, not before it and drifted past
+        # a target may be met at the tick, not before it and drifted past
+        self._input.minimum_duration = dt
 
     def clip(self, v: float, a: float) -> tuple[float, float]:
         """Nearest target from which the axis can stay inside its speed limit, before and after: |v| + a^2 / 2J <= V."""
@@ -106,23 +121,31 @@ class AxisSmoothing:
             raise PlanningError(str(error).strip()) from error
         if result not in (Result.Working, Result.Finished):
             raise PlanningError(f"ruckig says {result}")
-        ((p,), (v_next,), (a_next,)) = self._trajectory.at_time(self.dt)
-        return self._checked(v, a, Step(p, v_next, a_next, self._trajectory.duration <= self.dt * (1.0 + 1e-9)))
+        (p,), (v_next,), (a_next,) = self._trajectory.at_time(self.dt)
+        return self._checked(
+            v, a, Step(p, v_next, a_next, self._trajectory.duration <= self.dt * (1.0 + 1e-9))
+        )
 
     def _checked(self, v: float, a: float, step: Step) -> Step:
-        """The step, if a jerk-limited motion leads to it from (v, a) and on inside the speed limit. Raises PlanningError.
+        """The step, if a jerk-limited motion leads to it from (v, a) and on inside the speed limit.
 
-        Around the straight line between its ends the acceleration can bend by at most J dt / 2, worth J dt^2 / 4 of speed;
-        bringing it to zero afterwards takes a|a| / 2J of speed.
+        Raises PlanningError.
+
+        Around the straight line between its ends the acceleration can bend by at most J dt / 2,
+        worth J dt^2 / 4 of speed; bringing it to zero afterwards takes a|a| / 2J of speed.
         """
         slack = 1.0 + 0.5 * _ROUNDING
         bend = 0.25 * self.jerk * self.dt * self.dt
         if not (
             isfinite(step.displacement)
-            and abs(step.v - v - 0.5 * self.dt * (a + step.a)) <= bend * (1.0 + 1e-6) + 1e-12 * self.speed
+            and abs(step.v - v - 0.5 * self.dt * (a + step.a))
+            <= bend * (1.0 + 1e-6) + 1e-12 * self.speed
             and abs(step.a) <= self.acceleration * slack
             and abs(step.a - a) <= self.jerk * self.dt * slack
-            and max(abs(step.v), abs(step.v + step.a * abs(step.a) / (2.0 * self.jerk))) <= self.speed * slack
+            and max(abs(step.v), abs(step.v + step.a * abs(step.a) / (2.0 * self.jerk)))
+            <= self.speed * slack
         ):
-            raise PlanningError(f"a step outside the limits: from ({v}, {a}) to ({step.v}, {step.a})")
+            raise PlanningError(
+                f"a step outside the limits: from ({v}, {a}) to ({step.v}, {step.a})"
+            )
         return step

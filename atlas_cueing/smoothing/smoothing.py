@@ -12,15 +12,16 @@ from .sphere import SphereSmoothing
 from .stage import StageSmoothing
 
 _UNIT: Final = 1e-6  # a quaternion whose norm is off by more is no orientation
-_ABSURD_RATE: Final = 1e3  # rad/s; nobody asks a cabin for more, and the arithmetic stays far from overflow below it
+# rad/s; nobody asks a cabin for more, and the arithmetic stays far from overflow below it
+_ABSURD_RATE: Final = 1e3
 
 
 class Smoothing:
     """Turns cues into motion inside the limits of wheels and stage, at a fixed tick.
 
-    It starts at rest in the first cue's orientation and position. Whatever the cue is, every motion keeps
-    every limit; a cue that is no cue (not finite, no rotation, absurd) is answered with the certified stop.
-    Motion times are its own: start + n dt.
+    It starts at rest in the first cue's orientation and position. Whatever the cue is, every motion
+    keeps every limit; a cue that is no cue (not finite, no rotation, absurd) is answered with the
+    certified stop. Motion times are its own: start + n dt.
     """
 
     def __init__(
@@ -32,7 +33,10 @@ class Smoothing:
         wheel_limits: WheelLimits,
         stage_limits: StageLimits,
     ) -> None:
-        """Tick dt in s; the maps are J^-1 and J of the platform. Raises ValueError for limits that leave no room to move."""
+        """Tick dt in s; the maps are J^-1 and J of the platform.
+
+        Raises ValueError for limits that leave no room to move.
+        """
         self._dt = dt
         self._sphere = SphereSmoothing(dt, wheels_from_sphere, sphere_from_wheels, wheel_limits)
         self._stage = StageSmoothing(dt, stage_limits)

@@ -1,14 +1,14 @@
 """Rotation smoothed in wheel space, where its limits are.
 
-With e = log(q_cue q^-1) the turn still to go (rotation vector in W, |e| its geodesic length) and n its direction, the sphere
-is asked for
+With e = log(q_cue q^-1) the turn still to go (rotation vector in W, |e| its geodesic length) and n
+its direction, the sphere is asked for
 
     Omega = Omega_cue + g(|e|) n          alpha = alpha_cue - g'(|e|) g(|e|) n
 
-so that |e|' = -g(|e|). The closing speed g is gain |e| near the cue, and far from it the speed from which the wheels can
-still brake to a stop on the cue. J^-1 (paper, Eq. 22, and Eq. 19 for alpha) turns both into targets of the three wheels, each
-of which keeps its own speed, acceleration and jerk. The turn each wheel really makes goes back through J and Eq. 20 into the
-orientation.
+so that |e|' = -g(|e|). The closing speed g is gain |e| near the cue, and far from it the speed from
+which the wheels can still brake to a stop on the cue. J^-1 (paper, Eq. 22, and Eq. 19 for alpha)
+turns both into targets of the three wheels, each of which keeps its own speed, acceleration and
+jerk. The turn each wheel really makes goes back through J and Eq. 20 into the orientation.
 """
 
 # mypyc: runs every tick
@@ -37,32 +37,45 @@ from .axis import AxisSmoothing, Step
 from .stop import approach
 
 _GAIN: Final = 4.0  # 1/s; a small orientation error is taken back with a time constant of 0.25 s
-_BRAKING_SHARE: Final = 0.5  # of the wheels' acceleration and jerk, planned with on the way to a distant cue
+# of the wheels' acceleration and jerk, planned with on the way to a distant cue
+_BRAKING_SHARE: Final = 0.5
 _MET_ANGLE: Final = 0.01 * pi / 180.0  # rad; a larger lag than this is reported as limited
 _NO_ANGLE: Final = 1e-12  # rad; a smaller error has no direction worth the name
-_OTHER_WAY: Final = 0.5  # rad beyond half a turn before a catch-up under way changes over to the other way round
+# rad beyond half a turn before a catch-up under way changes over to the other way round
+_OTHER_WAY: Final = 0.5
 
 
 class SphereSmoothing:
     """Orientation, rate and acceleration of the sphere, one tick at a time, inside the wheels' limits."""
 
-    def __init__(self, dt: float, wheels_from_sphere: Mat3, sphere_from_wheels: Mat3, limits: WheelLimits) -> None:
+    def __init__(
+        self, dt: float, wheels_from_sphere: Mat3, sphere_from_wheels: Mat3, limits: WheelLimits
+    ) -> None:
         """Start at rest. dt in s; the maps are J^-1 (rad/s of wheels per rad/s of sphere) and J."""
         self._dt = dt
         self._wheels_from_sphere, self._sphere_from_wheels = wheels_from_sphere, sphere_from_wheels
         one, two, three = zip(limits.speed, limits.acceleration, limits.jerk, strict=True)
         self._axes = AxisSmoothing(dt, *one), AxisSmoothing(dt, *two), AxisSmoothing(dt, *three)
-        self._braking, self._braking_jerk = self._reserve(limits.acceleration), self._reserve(limits.jerk)
+        self._braking, self._braking_jerk = (
+            self._reserve(limits.acceleration),
+            self._reserve(limits.jerk),
+        )
         self._speed, self._acceleration = ZERO, ZERO
         self._left, self._cue_speed = IDENTITY, ZERO
         self.q_WS, self.w_WS_W, self.alpha_WS_W = IDENTITY, ZERO, ZERO
 
     def start(self, cue: Cue) -> None:
         """Begin at rest in the cue's orientation."""
-        self.q_WS, self._cue_speed = normalise(cue.q_WS), apply(self._wheels_from_sphere, cue.w_WS_W)
+        self.q_WS, self._cue_speed = (
+            normalise(cue.q_WS),
+            apply(self._wheels_from_sphere, cue.w_WS_W),
+        )
 
     def step(self, cue: Cue) -> bool:
-        """Follow the cue for one tick; whether the wheels gave it. Raises PlanningError and stays where it is."""
+        """Follow the cue for one tick; whether the wheels gave it.
+
+        Raises PlanningError and stays where it is.
+        """
         to_go = self._to_go(cue)
         angle = norm(to_go)
         u, a = self._demand(cue, to_go, angle)
@@ -75,7 +88,10 @@ class SphereSmoothing:
 
     def stop(self) -> None:
         """Follow the certified stop for one tick."""
-        x, y, z = (axis.stopping(v, a) for axis, v, a in zip(self._axes, self._speed, self._acceleration, strict=True))
+        x, y, z = (
+            axis.stopping(v, a)
+            for axis, v, a in zip(self._axes, self._speed, self._acceleration, strict=True)
+        )
         self._fly(x, y, z)
         self._cue_speed = self._speed
 
@@ -93,7 +109,10 @@ class SphereSmoothing:
         return subtract(to_go, scale(0.5 * self._dt, add(self.w_WS_W, cue.w_WS_W)))
 
     def _demand(self, cue: Cue, to_go: Vec3, angle: float) -> tuple[Vec3, Vec3]:
-        """Wheel speeds and accelerations asked for at the end of the tick; the cue's acceleration is its last difference."""
+        """Wheel speeds and accelerations asked for at the end of the tick.
+
+        The cue's acceleration is its last difference.
+        """
         speed = apply(self._wheels_from_sphere, cue.w_WS_W)
         acceleration = scale(1.0 / self._dt, subtract(speed, self._cue_speed))
         self._cue_speed = speed
@@ -103,12 +122,18 @@ class SphereSmoothing:
         closing, slope = approach(angle, _GAIN, self._braking, self._braking_jerk)
         if not self._have(add(speed, scale(closing, direction))):
             closing, slope = min(closing, self._spare(speed, direction)), 0.0
-        return add(speed, scale(closing, direction)), subtract(acceleration, scale(slope * closing, direction))
+        return add(speed, scale(closing, direction)), subtract(
+            acceleration, scale(slope * closing, direction)
+        )
 
     def _have(self, wheels: Vec3) -> bool:
         """Whether the wheels can turn that fast."""
         one, two, three = self._axes
-        return abs(wheels[0]) < one.speed and abs(wheels[1]) < two.speed and abs(wheels[2]) < three.speed
+        return (
+            abs(wheels[0]) < one.speed
+            and abs(wheels[1]) < two.speed
+            and abs(wheels[2]) < three.speed
+        )
 
     def _spare(self, wheels: Vec3, direction: Vec3) -> float:
         """Largest closing rate (rad/s) that keeps each wheel, busy with the cue already, inside its speed."""

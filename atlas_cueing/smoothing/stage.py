@@ -1,12 +1,13 @@
 """The stage inside its rails, for ever.
 
-Each axis of W follows its cue with the speed v_cue + g(e), the acceleration a_cue - g'(e) g(e), e = x_cue - x, and a
-speed towards either end of the travel from which it can stop in time. That makes for a good ride; what makes it safe is the
-certificate: a step is flown only if the jerk-limited stop from where it leads stays inside the travel, and otherwise the
-stop that was certified a tick ago is flown, whose every later state is certified as well (`stop`).
+Each axis of W follows its cue with the speed v_cue + g(e), the acceleration a_cue - g'(e) g(e), e =
+x_cue - x, and a speed towards either end of the travel from which it can stop in time. That makes
+for a good ride; what makes it safe is the certificate: a step is flown only if the jerk-limited
+stop from where it leads stays inside the travel, and otherwise the stop that was certified a tick
+ago is flown, whose every later state is certified as well (`stop`).
 
-Between ticks a step stays within A dt^2 / 8 of the line between its ends, so that much of the travel is left unused; the
-stop itself is checked in continuous time.
+Between ticks a step stays within A dt^2 / 8 of the line between its ends, so that much of the
+travel is left unused; the stop itself is checked in continuous time.
 """
 
 # mypyc: runs every tick
@@ -21,21 +22,34 @@ from .axis import AxisSmoothing, Step
 from .stop import Stop, approach, stop_bound
 
 _GAIN: Final = 4.0  # 1/s; a small position error is taken back with a time constant of 0.25 s
-_END_GAIN: Final = 10.0  # 1/s; over the last centimetres of the travel the speed falls with a time constant of 0.1 s
-_BRAKING_SHARE: Final = 0.7  # of acceleration and jerk, planned with towards the ends of the travel and a distant cue
+# 1/s; over the last centimetres of the travel the speed falls with a time constant of 0.1 s
+_END_GAIN: Final = 10.0
+# of acceleration and jerk, planned with towards the ends of the travel and a distant cue
+_BRAKING_SHARE: Final = 0.7
 _MET_DISTANCE: Final = 1e-4  # m; a larger lag than this is reported as limited
 
 
 class RailAxis:
     """One axis of the stage: position, speed and acceleration, one tick at a time."""
 
-    def __init__(self, dt: float, travel: float, speed: float, acceleration: float, jerk: float) -> None:
-        """Start at rest in the centre. Raises ValueError for limits that leave no room to move between two ticks."""
+    def __init__(
+        self, dt: float, travel: float, speed: float, acceleration: float, jerk: float
+    ) -> None:
+        """Start at rest in the centre.
+
+        Raises ValueError for limits that leave no room to move between two ticks.
+        """
         self._axis = AxisSmoothing(dt, speed, acceleration, jerk)
         self.travel = travel - acceleration * dt * dt / 8.0
         if not self.travel > 0.0:
-            raise ValueError(f"travel > acceleration dt^2 / 8 = {acceleration * dt * dt / 8.0:.3g} m; got {travel} m")
-        self._braking, self._braking_jerk = _BRAKING_SHARE * self._axis.acceleration, _BRAKING_SHARE * self._axis.jerk
+            raise ValueError(
+                f"travel > acceleration dt^2 / 8 = {acceleration * dt * dt / 8.0:.3g} m; got"
+                f" {travel} m"
+            )
+        self._braking, self._braking_jerk = (
+            _BRAKING_SHARE * self._axis.acceleration,
+            _BRAKING_SHARE * self._axis.jerk,
+        )
         self.p = self.v = self.a = 0.0
 
     def start(self, p: float) -> None:
@@ -61,7 +75,10 @@ class RailAxis:
             return 0.0, 0.0
         closing, slope = approach(abs(to_go), _GAIN, self._braking, self._braking_jerk)
         closing = copysign(closing, to_go)
-        v_target, a_target = min(max(v + closing, -self._axis.speed), self._axis.speed), a - slope * closing
+        v_target, a_target = (
+            min(max(v + closing, -self._axis.speed), self._axis.speed),
+            a - slope * closing,
+        )
         ahead = self.p + 0.5 * self._axis.dt * (self.v + v_target)
         room = self.travel - (ahead if v_target > 0.0 else -ahead)
         fastest, slope = approach(room, _END_GAIN, self._braking, self._braking_jerk)
@@ -71,7 +88,10 @@ class RailAxis:
 
     def _is_certified(self, p: float, step: Step) -> bool:
         """Whether the stop from p, where the step leads, stays inside the travel."""
-        if abs(p) + stop_bound(step.v, step.a, self._axis.acceleration, self._axis.jerk) <= self.travel:
+        if (
+            abs(p) + stop_bound(step.v, step.a, self._axis.acceleration, self._axis.jerk)
+            <= self.travel
+        ):
             return True
         low, high = Stop.plan(step.v, step.a, self._axis.acceleration, self._axis.jerk).span()
         return -self.travel <= p + low and p + high <= self.travel

@@ -1,15 +1,17 @@
 """The shortest jerk-limited stop, in closed form: the certificate behind every step.
 
-One axis with acceleration bound A and jerk bound J, at speed v and acceleration a. Let u = v + a|a| / 2J be the speed that
-would be left if the acceleration were brought to zero at once, and s its sign. The time-optimal way to v = a = 0 has three
-phases of constant jerk, -sJ, 0, sJ, with peak deceleration
+One axis with acceleration bound A and jerk bound J, at speed v and acceleration a. Let u = v + a|a|
+/ 2J be the speed that would be left if the acceleration were brought to zero at once, and s its
+sign. The time-optimal way to v = a = 0 has three phases of constant jerk, -sJ, 0, sJ, with peak
+deceleration
 
     A' = min(A, sqrt(s J v + a^2 / 2))
 
-since the first phase changes the speed by (a^2 - A'^2) / 2J and the last by A'^2 / 2J; what is left takes the middle phase.
-On its way the stop only ever meets states whose own stop is the rest of the same stop: a certified state therefore always
-has a certified successor. Phases as in L. Berscheid & T. Kroeger, "Jerk-limited Real-time Trajectory Generation with
-Arbitrary Target States", RSS 2021, velocity interface with target zero.
+since the first phase changes the speed by (a^2 - A'^2) / 2J and the last by A'^2 / 2J; what is left
+takes the middle phase. On its way the stop only ever meets states whose own stop is the rest of the
+same stop: a certified state therefore always has a certified successor. Phases as in L. Berscheid &
+T. Kroeger, "Jerk-limited Real-time Trajectory Generation with Arbitrary Target States", RSS 2021,
+velocity interface with target zero.
 """
 
 # mypyc: runs every tick
@@ -20,7 +22,10 @@ from math import sqrt
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """Stop from (v, a) in phases of (jerk, duration); displacements are relative to its start, m or rad."""
+    """Stop from (v, a) in phases of (jerk, duration).
+
+    Displacements are relative to its start, m or rad.
+    """
 
     v: float
     a: float
@@ -34,7 +39,11 @@ class Stop:
         peak = min(a_max, sqrt(max(j_max * v_s + 0.5 * a_s * a_s, 0.0)))
         hold = (v_s + (0.5 * a_s * a_s - peak * peak) / j_max) / peak if peak > 0.0 else 0.0
         jerk = s * j_max
-        return cls(v, a, ((-jerk, max(a_s + peak, 0.0) / j_max), (0.0, max(hold, 0.0)), (jerk, peak / j_max)))
+        return cls(
+            v,
+            a,
+            ((-jerk, max(a_s + peak, 0.0) / j_max), (0.0, max(hold, 0.0)), (jerk, peak / j_max)),
+        )
 
     @property
     def duration(self) -> float:
@@ -42,7 +51,10 @@ class Stop:
         return sum(duration for _, duration in self.phases)
 
     def at(self, t: float) -> tuple[float, float, float]:
-        """Displacement, speed and acceleration at time t >= 0 into the stop; at rest from its end on."""
+        """Displacement, speed and acceleration at time t >= 0 into the stop.
+
+        At rest from its end on.
+        """
         p, v, a = 0.0, self.v, self.a
         for jerk, duration in self.phases:
             step = min(t, duration)
@@ -53,16 +65,20 @@ class Stop:
         return p, 0.0, 0.0
 
     def span(self) -> tuple[float, float]:
-        """Lowest and highest displacement on the way: at the start, at the end and where the speed changes its sign.
+        """Lowest and highest displacement on the way.
 
-        It does so at most once, in the first phase, when the acceleration is about to carry the axis backwards.
+        At the start, at the end and where the speed changes its sign.
+
+        It does so at most once, in the first phase, when the acceleration is about to carry the
+        axis backwards.
         """
         end = self.at(self.duration)[0]
         jerk = self.phases[0][0]
         if self.v * jerk <= 0.0:
             return min(0.0, end), max(0.0, end)
         under = max(self.a * self.a - 2.0 * jerk * self.v, 0.0)
-        turn = 2.0 * abs(self.v) / (abs(self.a) + sqrt(under))  # the earlier root of v + a t + jerk t^2 / 2
+        # the earlier root of v + a t + jerk t^2 / 2
+        turn = 2.0 * abs(self.v) / (abs(self.a) + sqrt(under))
         at_turn = _coast(0.0, self.v, self.a, jerk, turn)[0]
         return min(0.0, end, at_turn), max(0.0, end, at_turn)
 

@@ -14,7 +14,8 @@ Left: TypeAlias = Callable[[], bool]
 """Whether the parent is gone or waits in `finish`, and nothing more is to be expected of it."""
 
 _FAILED = 70  # exit status after an exception: EX_SOFTWARE of sysexits.h
-_IGNORED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # a terminal sends them to all; the loop decides what they mean
+# a terminal sends them to all; the loop decides what they mean
+_IGNORED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,10 +48,16 @@ class ChildProcess:
     @property
     def alive(self) -> bool:
         """Whether it runs; asks without waiting."""
-        return self._ended is None and os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None
+        return (
+            self._ended is None
+            and os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None
+        )
 
     def finish(self, timeout: float) -> ProcessExit:
-        """Let it end, and wait for that: at most `timeout` s, then it is killed. Harmless when called again."""
+        """Let it end, and wait for that: at most `timeout` s, then it is killed.
+
+        Harmless when called again.
+        """
         if self._ended is None:
             answer = self._answer(monotonic() + timeout)
             self._channel.close()
@@ -70,11 +77,14 @@ class ChildProcess:
                     return answer
                 answer += piece
         except OSError:  # a TimeoutError, or it is gone and left our word unread
-            os.kill(self.pid, signal.SIGKILL)  # we have not waited for it yet, so the number is still its own
+            # we have not waited for it yet, so the number is still its own
+            os.kill(self.pid, signal.SIGKILL)
             return b""
 
 
-def _run(function: Callable[[Left], bytes], channel: socket.socket, parent: int, mask: Iterable[int]) -> NoReturn:
+def _run(
+    function: Callable[[Left], bytes], channel: socket.socket, parent: int, mask: Iterable[int]
+) -> NoReturn:
     """What the forked process does, and all it does: nothing of the parent's own is ever tidied up here."""
     status = _FAILED
     try:
@@ -93,7 +103,10 @@ def _run(function: Callable[[Left], bytes], channel: socket.socket, parent: int,
 
 
 def _left(channel: socket.socket, parent: int) -> bool:
-    """See Left. The parent's number is asked, too: a sibling may hold a copy of its end of the channel."""
+    """See Left.
+
+    The parent's number is asked, too: a sibling may hold a copy of its end of the channel.
+    """
     if os.getppid() != parent:
         return True
     try:

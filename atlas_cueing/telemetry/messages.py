@@ -11,7 +11,8 @@ from .ring import Ring
 TICK, STATUS, END = 1, 2, 3
 LONGEST_TEXT = 240  # characters of a state or reason; of a longer one the beginning is kept
 _row = Struct(f"={LIVE_ROW}d")
-_SIZE = max(_row.size, 3 * (2 * LONGEST_TEXT + 60))  # a character takes at most 6 bytes as JSON, and few do
+# a character takes at most 6 bytes as JSON, and few do
+_SIZE = max(_row.size, 3 * (2 * LONGEST_TEXT + 60))
 
 
 def live_ring(seconds: float, rate: float) -> Ring:
@@ -50,5 +51,11 @@ def status(data: bytes) -> Status:
 
 
 def _text(time: float, state: str, reason: str) -> bytes:
-    data = json.dumps([time, state[:LONGEST_TEXT], reason[:LONGEST_TEXT]], ensure_ascii=False).encode(errors="replace")
-    return data if len(data) <= _SIZE else _text(time, state[: len(state) // 2], reason[: len(reason) // 2])
+    data = json.dumps(
+        [time, state[:LONGEST_TEXT], reason[:LONGEST_TEXT]], ensure_ascii=False
+    ).encode(errors="replace")
+    return (
+        data
+        if len(data) <= _SIZE
+        else _text(time, state[: len(state) // 2], reason[: len(reason) // 2])
+    )

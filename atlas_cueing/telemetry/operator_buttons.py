@@ -1,4 +1,6 @@
-"""What the operator pressed, in memory shared between processes: pressed in one, noticed in another, and nobody waits.
+"""What the operator pressed, in memory shared between processes.
+
+Pressed in one, noticed in another, and nobody waits.
 
 As the ring's, the memory is anonymous and reaches the other process by `fork`.
 """
@@ -13,8 +15,8 @@ _SIZE = 8 * len(BUTTONS)
 class OperatorButtons:
     """A count of presses for each name of BUTTONS.
 
-    One process presses, from any of its threads, and one process reads. A count is written and read as one aligned word, so
-    that no count is seen half written.
+    One process presses, from any of its threads, and one process reads. A count is written and read
+    as one aligned word, so that no count is seen half written.
     """
 
     def __init__(self) -> None:

@@ -23,8 +23,9 @@ _REFUSAL = b"HTTP/1.1 %s\r\nConnection: close\r\nContent-Length: 0\r\n\r\n"
 class OriginGate:
     """Hands on connections to a server on this machine.
 
-    origins: allowed beside pages of this machine itself (http or https, localhost, any port). A request without an Origin
-    is from a program, not from a page. A client that does not read is not read for: nothing piles up here.
+    origins: allowed beside pages of this machine itself (http or https, localhost, any port). A
+    request without an Origin is from a program, not from a page. A client that does not read is not
+    read for: nothing piles up here.
     """
 
     def __init__(self, server: tuple[str, int], origins: Collection[str]) -> None:
@@ -57,15 +58,24 @@ class OriginGate:
     def admits(self, request: bytes) -> bool:
         """Whether the head of this HTTP request has no Origin, or one that is allowed."""
         lines = request.decode("latin-1").split("\r\n")[1:]
-        origins = [line.partition(":")[2].strip() for line in lines if line.partition(":")[0].strip().lower() == "origin"]
+        origins = [
+            line.partition(":")[2].strip()
+            for line in lines
+            if line.partition(":")[0].strip().lower() == "origin"
+        ]
         return all(origin in self._origins or _HERE.fullmatch(origin) for origin in origins)
 
-    async def _relay(self, request: bytes, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    async def _relay(
+        self, request: bytes, reader: asyncio.StreamReader, writer: asyncio.StreamWriter
+    ) -> None:
         """Both ways until either side ends."""
         from_server, to_server = await asyncio.open_connection(*self._server)
         try:
             to_server.write(request)
-            ways = [asyncio.create_task(_pump(reader, to_server)), asyncio.create_task(_pump(from_server, writer))]
+            ways = [
+                asyncio.create_task(_pump(reader, to_server)),
+                asyncio.create_task(_pump(from_server, writer)),
+            ]
             try:
                 await asyncio.wait(ways, return_when=asyncio.FIRST_COMPLETED)
             finally:
@@ -77,7 +87,10 @@ class OriginGate:
 
 
 def listen(host: str, port: int) -> socket.socket:
-    """A TCP socket that listens; port 0 takes a free one. Raises InputError when it cannot be had."""
+    """A TCP socket that listens; port 0 takes a free one.
+
+    Raises InputError when it cannot be had.
+    """
     listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
     try:
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -85,7 +98,9 @@ def listen(host: str, port: int) -> socket.socket:
         listener.listen(MOST_CLIENTS)
     except (OSError, OverflowError) as error:
         listener.close()
-        raise InputError(f"TCP {host}:{port}: cannot listen there: {error}; another program may have it") from error
+        raise InputError(
+            f"TCP {host}:{port}: cannot listen there: {error}; another program may have it"
+        ) from error
     return listener
 
 

@@ -1,11 +1,12 @@
 """The last seconds of a live run, in memory shared between processes.
 
-One process writes and never waits; any number of others read, each at its own pace. A reader that falls behind by more than the
-ring holds loses the oldest messages and is told how many. The memory is anonymous and reaches the readers by `fork`: it has no
-name, so nothing is left behind when a process is killed, and what was written can still be read when the writer is gone.
+One process writes and never waits; any number of others read, each at its own pace. A reader that
+falls behind by more than the ring holds loses the oldest messages and is told how many. The memory
+is anonymous and reaches the readers by `fork`: it has no name, so nothing is left behind when a
+process is killed, and what was written can still be read when the writer is gone.
 
-Each slot begins with the number of its message, written last and invalidated first (a sequence lock): a reader that finds
-another number before or after its copy has been overtaken.
+Each slot begins with the number of its message, written last and invalidated first (a sequence
+lock): a reader that finds another number before or after its copy has been overtaken.
 """
 
 import mmap
@@ -21,7 +22,10 @@ class Ring:
     """A bounded memory of messages (kind, bytes)."""
 
     def __init__(self, slots: int, size: int) -> None:
-        """Room for `slots` messages of at most `size` bytes. All of it is touched now, so that no write faults a page in."""
+        """Room for `slots` messages of at most `size` bytes.
+
+        All of it is touched now, so that no write faults a page in.
+        """
         self.slots, self.size = slots, size
         self._stride = -(-(_head.size + size) // 8) * 8
         self._memory = mmap.mmap(-1, _PAGE + slots * self._stride)
@@ -45,7 +49,10 @@ class Ring:
         _number.pack_into(self._memory, 0, self._written)
 
     def read(self, number: int) -> tuple[int, bytes] | None:
-        """Kind and content of message `number` (the first is 0); None when it has been overwritten or is not there yet."""
+        """Kind and content of message `number` (the first is 0).
+
+        None when it has been overwritten or is not there yet.
+        """
         at = self._place(number)
         found, kind, size = _head.unpack_from(self._memory, at)
         if found != number + 1 or size > self.size:
@@ -66,10 +73,14 @@ class RingReader:
         self.lost = 0
 
     def messages(self) -> Iterator[tuple[int, bytes]]:
-        """All that has been written since the last call, in order; `lost` counts what was overwritten before it was read."""
+        """All that has been written since the last call, in order.
+
+        `lost` counts what was overwritten before it was read.
+        """
         end = self._ring.written
         while self._next < end:
-            oldest = self._ring.written - self._ring.slots + 1  # the very oldest may be about to be overwritten
+            # the very oldest may be about to be overwritten
+            oldest = self._ring.written - self._ring.slots + 1
             if self._next < oldest:
                 self.lost += oldest - self._next
                 self._next = oldest

@@ -1,8 +1,8 @@
 """Sources of vehicle states; the only place that knows feet, pounds and knots.
 
-A `ScriptFlight` or an `AircraftFlight` says what to fly and `JsbsimVehicle` flies it, as a `signals.Vehicle`; a `SignalFlight`
-is flown by a `SignalVehicle`, and a `RecordedVehicle` plays recorded states back. `flightgear` reads the packets of a simulator
-elsewhere.
+A `ScriptFlight` or an `AircraftFlight` says what to fly and `JsbsimVehicle` flies it, as a
+`signals.Vehicle`; a `SignalFlight` is flown by a `SignalVehicle`, and a `RecordedVehicle` plays
+recorded states back. `flightgear` reads the packets of a simulator elsewhere.
 """
 
 from .bounds import Bounds

@@ -34,9 +34,11 @@ DEFAULT_RATE_HZ = 120.0  # JSBSim's own step in FlightGear
 _VERSION = Struct(">I")
 _FIELDS = Struct(">II3d4f8x3f32x3f")
 _ROUNDING = 1e-6  # rad; of a float near pi
-_LOWEST = -1e4  # m; the lowest dry land lies at -430, and the ellipsoid up to 107 m from mean sea level
+# m; the lowest dry land lies at -430, and the ellipsoid up to 107 m from mean sea level
+_LOWEST = -1e4
 
-# Ellipsoid and normal gravity of WGS 84 (NIMA TR8350.2, 2000, tables 3.1, 3.3 and 3.4, eq. 4-1 and 4-3).
+# Ellipsoid and normal gravity of WGS 84 (NIMA TR8350.2, 2000, tables 3.1, 3.3 and 3.4, eq. 4-1 and
+# 4-3).
 _EQUATOR = 6378137.0  # m
 _FLATTENING = 1.0 / 298.257223563
 _ECCENTRICITY_2 = _FLATTENING * (2.0 - _FLATTENING)
@@ -74,15 +76,33 @@ def decode(packet: bytes, time: float, bounds: Bounds) -> VehicleState:
     `bounds` objects to.
     """
     _check_kind(packet)
-    _, _, longitude, latitude, altitude, height, phi, theta, psi, *rest = _FIELDS.unpack_from(packet)
+    _, _, longitude, latitude, altitude, height, phi, theta, psi, *rest = _FIELDS.unpack_from(
+        packet
+    )
     # NaN and infinity are out of every range
-    if not (abs(phi) <= 2.0 * pi and abs(theta) <= 0.5 * pi + _ROUNDING and abs(psi) <= 2.0 * pi + _ROUNDING):
-        raise PacketError(f"attitude roll {phi:.4g}, pitch {theta:.4g}, heading {psi:.4g} rad is no triple of Euler angles")
-    if not (abs(longitude) < inf and abs(latitude) <= 0.5 * pi + _ROUNDING and _LOWEST <= altitude <= bounds.height):
-        raise PacketError(f"position {longitude:.4g} rad east, {latitude:.4g} rad north, {altitude:.4g} m up is nowhere")
+    if not (
+        abs(phi) <= 2.0 * pi
+        and abs(theta) <= 0.5 * pi + _ROUNDING
+        and abs(psi) <= 2.0 * pi + _ROUNDING
+    ):
+        raise PacketError(
+            f"attitude roll {phi:.4g}, pitch {theta:.4g}, heading {psi:.4g} rad is no triple of"
+            " Euler angles"
+        )
+    if not (
+        abs(longitude) < inf
+        and abs(latitude) <= 0.5 * pi + _ROUNDING
+        and _LOWEST <= altitude <= bounds.height
+    ):
+        raise PacketError(
+            f"position {longitude:.4g} rad east, {latitude:.4g} rad north, {altitude:.4g} m up is"
+            " nowhere"
+        )
     k = METRES_PER_FOOT * STANDARD_GRAVITY / normal_gravity(latitude, altitude)
     force: Vec3 = (k * rest[3], k * rest[4], k * rest[5])
-    state = VehicleState(time, from_euler(psi, theta, phi), _body_rates(phi, theta, rest[0], rest[1], rest[2]), force)
+    state = VehicleState(
+        time, from_euler(psi, theta, phi), _body_rates(phi, theta, rest[0], rest[1], rest[2]), force
+    )
     objection = bounds.objection(state, height)
     if objection:
         raise PacketError(objection)
@@ -105,9 +125,14 @@ def _check_kind(packet: bytes) -> None:
     """Version first: the size belongs to it."""
     version = _VERSION.unpack_from(packet)[0] if len(packet) >= _VERSION.size else None
     if version is not None and version != VERSION:
-        raise PacketError(f"version {version} of the native FDM packet, allowed: {VERSION} ({len(packet)} bytes)")
+        raise PacketError(
+            f"version {version} of the native FDM packet, allowed: {VERSION} ({len(packet)} bytes)"
+        )
     if len(packet) != PACKET_BYTES:
-        raise PacketError(f"{len(packet)} bytes, allowed: {PACKET_BYTES}, a native FDM packet of version {VERSION}")
+        raise PacketError(
+            f"{len(packet)} bytes, allowed: {PACKET_BYTES}, a native FDM packet of version"
+            f" {VERSION}"
+        )
 
 
 def _body_rates(phi: float, theta: float, phidot: float, thetadot: float, psidot: float) -> Vec3:

@@ -14,7 +14,10 @@ class FlownAhead:
     """
 
     def __init__(self, vehicle: Vehicle) -> None:
-        """Take about 0.5 kB for each state. Raises InputError for a flight of more than MOST_STATES."""
+        """Take about 0.5 kB for each state.
+
+        Raises InputError for a flight of more than MOST_STATES.
+        """
         self.dt = vehicle.dt
         self.states = [vehicle.state]
         self._failure: VehicleError | None = None
@@ -23,7 +26,10 @@ class FlownAhead:
             while vehicle.advance():
                 self.states.append(vehicle.state)
                 if len(self.states) > MOST_STATES:
-                    raise InputError(f"the whole flight is kept in memory, allowed: states <= {MOST_STATES}; set duration_s")
+                    raise InputError(
+                        f"the whole flight is kept in memory, allowed: states <= {MOST_STATES}; set"
+                        " duration_s"
+                    )
         except VehicleError as error:
             self._failure = error
 
@@ -33,7 +39,10 @@ class FlownAhead:
         return self.states[self._now]
 
     def advance(self) -> bool:
-        """Go one state on; False, and nothing changes, after the last one. Raises VehicleError where the vehicle did."""
+        """Go one state on; False, and nothing changes, after the last one.
+
+        Raises VehicleError where the vehicle did.
+        """
         if self._now + 1 < len(self.states):
             self._now += 1
             return True

@@ -12,17 +12,27 @@ from ..signals import VehicleState
 class RecordedVehicle:
     """Plays states back one after the other, bit by bit as they were (implements signals.Vehicle).
 
-    The step is the time from the first state to the second, which is exactly the step of the vehicle that was recorded when its
-    first time is 0. Where that does not lead to the last state, since times were rounded, it is the mean.
+    The step is the time from the first state to the second, which is exactly the step of the
+    vehicle that was recorded when its first time is 0. Where that does not lead to the last state,
+    since times were rounded, it is the mean.
     """
 
     def __init__(self, states: Sequence[VehicleState]) -> None:
-        """States in order of time, at least two. Raises InputError when there are fewer, or time does not go on."""
+        """States in order of time, at least two.
+
+        Raises InputError when there are fewer, or time does not go on.
+        """
         if len(states) < 2:
-            raise InputError(f"a recorded flight needs at least two states to know its step; this one has {len(states)}")
+            raise InputError(
+                "a recorded flight needs at least two states to know its step; this one has"
+                f" {len(states)}"
+            )
         for before, now in pairwise(states):
             if not now.time > before.time:
-                raise InputError(f"a recorded flight must go on in time: {now.time:.9g} s after {before.time:.9g} s")
+                raise InputError(
+                    f"a recorded flight must go on in time: {now.time:.9g} s after"
+                    f" {before.time:.9g} s"
+                )
         self._states = states
         self._dt = _step([state.time for state in states])
         self._now = 0
@@ -46,7 +56,10 @@ class RecordedVehicle:
 
 
 def _step(times: Sequence[float]) -> float:
-    """The step, s, of which increasing times are multiples but for rounding; gaps count as several."""
+    """The step, s, of which increasing times are multiples but for rounding.
+
+    Gaps count as several.
+    """
     first, span = times[1] - times[0], times[-1] - times[0]
     ticks = max(round(span / median(after - before for before, after in pairwise(times))), 1)
     return first if abs(ticks * first - span) <= ticks * ulp(times[-1]) else span / ticks

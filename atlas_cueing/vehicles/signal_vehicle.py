@@ -36,7 +36,9 @@ from ..signals import STANDARD_GRAVITY, VehicleState
 from .bounds import Bounds
 from .jsbsim.flights import DEFAULT_RATE_HZ, MAX_RATE_HZ, MIN_RATE_HZ
 
-SignalAxis: TypeAlias = Literal["roll_rate", "pitch_rate", "yaw_rate", "force_x", "force_y", "force_z"]
+SignalAxis: TypeAlias = Literal[
+    "roll_rate", "pitch_rate", "yaw_rate", "force_x", "force_y", "force_z"
+]
 Shape: TypeAlias = Literal["sine", "sweep", "step", "doublet"]
 
 RATE_AXES: tuple[SignalAxis, SignalAxis, SignalAxis] = ("roll_rate", "pitch_rate", "yaw_rate")
@@ -45,7 +47,8 @@ SHAPES: tuple[Shape, ...] = ("sine", "sweep", "step", "doublet")
 DEFAULT_RAMP = 0.25  # s (assumed)
 MIN_STEPS_PER_PERIOD = 8  # of the highest frequency; with fewer a sine is no longer one (assumed)
 
-_SUBSTEPS = 4  # of one step; the attitude is then off by 5e-7 of its swing at 8 steps a period, by 4e-10 at 48
+# of one step; the attitude is then off by 5e-7 of its swing at 8 steps a period, by 4e-10 at 48
+_SUBSTEPS = 4
 _STEP_TOLERANCE = 1e-6  # steps; a duration of n dt is n steps however it was rounded
 
 
@@ -85,16 +88,23 @@ class Signal:
                 carrier = 1.0
             case "doublet":
                 half = 0.5 * self.duration
-                return self.amplitude * (self._envelope(s, half) if s < half else -self._envelope(s - half, half))
+                return self.amplitude * (
+                    self._envelope(s, half) if s < half else -self._envelope(s - half, half)
+                )
         return self.amplitude * carrier * self._envelope(s, self.duration)
 
     @property
     def fastest(self) -> float:
         """Highest frequency of the carrier, rad/s; 0 without one."""
-        return {"sine": self.frequency, "sweep": max(self.frequency, self.end_frequency)}.get(self.shape, 0.0)
+        return {"sine": self.frequency, "sweep": max(self.frequency, self.end_frequency)}.get(
+            self.shape, 0.0
+        )
 
     def check(self) -> None:
-        """Raise InputError for what cannot be a signal: an unknown word, a bad number, ramps that do not fit."""
+        """Raise InputError for what cannot be a signal.
+
+        An unknown word, a bad number, ramps that do not fit.
+        """
         objection = self._bad_word() or self._bad_number() or self._long_ramp()
         if objection:
             raise InputError(f"signal on {self.axis}: {objection}")
@@ -102,7 +112,9 @@ class Signal:
     def _bad_word(self) -> str:
         if self.axis not in RATE_AXES + FORCE_AXES:
             return f"no such axis, allowed: {', '.join(RATE_AXES + FORCE_AXES)}"
-        return "" if self.shape in SHAPES else f"no shape {self.shape!r}, allowed: {', '.join(SHAPES)}"
+        return (
+            "" if self.shape in SHAPES else f"no shape {self.shape!r}, allowed: {', '.join(SHAPES)}"
+        )
 
     def _bad_number(self) -> str:
         positive = {"duration": self.duration, "ramp": self.ramp}
@@ -115,14 +127,19 @@ class Signal:
                 return f"{name} = {value:g}, allowed: finite, 0 < {name}"
         if not 0.0 <= self.time < inf:
             return f"time = {self.time:g} s, allowed: finite, 0 <= time"
-        return "" if abs(self.amplitude) < inf else f"amplitude = {self.amplitude:g}, allowed: finite"
+        return (
+            "" if abs(self.amplitude) < inf else f"amplitude = {self.amplitude:g}, allowed: finite"
+        )
 
     def _long_ramp(self) -> str:
         longest = self.duration / (4.0 if self.shape == "doublet" else 2.0)
         if self.ramp <= longest:
             return ""
         bounds = f"allowed: 0 < ramp <= {longest:g}"
-        return f"the ramps of a {self.shape} of {self.duration:g} s must fit into it: ramp = {self.ramp:g} s, {bounds}"
+        return (
+            f"the ramps of a {self.shape} of {self.duration:g} s must fit into it: ramp ="
+            f" {self.ramp:g} s, {bounds}"
+        )
 
     def _envelope(self, s: float, duration: float) -> float:
         """0 to 1 to 0 between 0 and `duration`: the smoothstep of fifth order at both ends."""
@@ -141,7 +158,8 @@ class Signal:
 class SignalFlight:
     """Signals to fly at `rate_hz` steps per second for `duration` s.
 
-    None stands for the default rate, and for the end of the last signal. Without `force_follows_attitude` the force is held.
+    None stands for the default rate, and for the end of the last signal. Without
+    `force_follows_attitude` the force is held.
     """
 
     signals: tuple[Signal, ...]
@@ -153,21 +171,28 @@ class SignalFlight:
 class SignalVehicle:
     """A vehicle that does nothing but its signals (implements signals.Vehicle).
 
-    The attitude is integrated from the rates by the fourth-order Magnus expansion, with Simpson's rule for their integral: for
-    one axis at a time it is the signal's own integral to a millionth of its swing at worst.
+    The attitude is integrated from the rates by the fourth-order Magnus expansion, with Simpson's
+    rule for their integral: for one axis at a time it is the signal's own integral to a millionth
+    of its swing at worst.
 
-    Building it raises InputError for signals that cannot be flown, `advance` VehicleError when they add up to more than a
-    vehicle that people ride in does.
+    Building it raises InputError for signals that cannot be flown, `advance` VehicleError when they
+    add up to more than a vehicle that people ride in does.
     """
 
     def __init__(self, flight: SignalFlight, bounds: Bounds | None = None) -> None:
         _check(flight)
         rate_hz = flight.rate_hz or DEFAULT_RATE_HZ
-        end = max(signal.time + signal.duration for signal in flight.signals) if flight.duration is None else flight.duration
+        end = (
+            max(signal.time + signal.duration for signal in flight.signals)
+            if flight.duration is None
+            else flight.duration
+        )
         self._bounds = Bounds() if bounds is None else bounds
         self._dt, self._last_step = 1.0 / rate_hz, floor(end * rate_hz + _STEP_TOLERANCE)
         self._follows = flight.force_follows_attitude
-        self._rates, self._forces = (_of_axes(flight.signals, axes) for axes in (RATE_AXES, FORCE_AXES))
+        self._rates, self._forces = (
+            _of_axes(flight.signals, axes) for axes in (RATE_AXES, FORCE_AXES)
+        )
         self._turning = any(self._rates)
         self._step, self._q_NB, self._w_B = 0, IDENTITY, ZERO
         self._state = self._at(0)
@@ -197,11 +222,18 @@ class SignalVehicle:
 
     def _at(self, step: int) -> VehicleState:
         t = step * self._dt
-        gravity = scale(-STANDARD_GRAVITY, up_in_body(self._q_NB)) if self._follows else (0.0, 0.0, -STANDARD_GRAVITY)
+        gravity = (
+            scale(-STANDARD_GRAVITY, up_in_body(self._q_NB))
+            if self._follows
+            else (0.0, 0.0, -STANDARD_GRAVITY)
+        )
         return VehicleState(t, self._q_NB, self._w_B, add(gravity, _values(self._forces, t)))
 
     def _turn(self) -> None:
-        """Integrate the rates over the next step. The one place where the attitude is renormalised."""
+        """Integrate the rates over the next step.
+
+        The one place where the attitude is renormalised.
+        """
         h = self._dt / _SUBSTEPS
         q_NB: Quat = self._q_NB
         for k in range(1, _SUBSTEPS + 1):
@@ -223,7 +255,9 @@ def _of_axes(signals: Sequence[Signal], axes: tuple[SignalAxis, SignalAxis, Sign
 
 def _values(by_axis: _ByAxis, t: float) -> Vec3:
     """Sum of the signals of each axis at time t."""
-    one, two, three = (sum(signal.value(t) for signal in signals) if signals else 0.0 for signals in by_axis)
+    one, two, three = (
+        sum(signal.value(t) for signal in signals) if signals else 0.0 for signals in by_axis
+    )
     return (one, two, three)
 
 
@@ -231,7 +265,9 @@ def _check(flight: SignalFlight) -> None:
     """Refuse what cannot be flown."""
     rate_hz = flight.rate_hz or DEFAULT_RATE_HZ
     if not MIN_RATE_HZ <= rate_hz <= MAX_RATE_HZ:
-        raise InputError(f"rate {rate_hz:g} Hz, allowed: {MIN_RATE_HZ:g} <= rate_hz <= {MAX_RATE_HZ:g}")
+        raise InputError(
+            f"rate {rate_hz:g} Hz, allowed: {MIN_RATE_HZ:g} <= rate_hz <= {MAX_RATE_HZ:g}"
+        )
     if not flight.signals and flight.duration is None:
         raise InputError("a flight without signals has no end of its own; allowed: a duration")
     if flight.duration is not None and not 0.0 < flight.duration < inf:

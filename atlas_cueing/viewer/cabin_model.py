@@ -1,4 +1,7 @@
-"""What turns: the sphere with marks that tell its orientation, and the cockpit inside. Frame S: x forward, y left, z up."""
+"""What turns: the sphere with marks that tell its orientation, and the cockpit inside.
+
+Frame S: x forward, y left, z up.
+"""
 
 from typing import TYPE_CHECKING
 
@@ -36,10 +39,19 @@ def draw_cabin(scene: "SceneApi", path: str, platform: Platform) -> "FrameHandle
 
 def _draw_shell(scene: "SceneApi", path: str, radius: float) -> None:
     """Two halves one can look through, sky above and earth below."""
-    for name, colour, elevation, opacity in (("sky", _UPPER, (0.0, _UP), 0.22), ("earth", _LOWER, (-_UP, 0.0), 0.46)):
+    for name, colour, elevation, opacity in (
+        ("sky", _UPPER, (0.0, _UP), 0.22),
+        ("earth", _LOWER, (-_UP, 0.0), 0.46),
+    ):
         vertices, faces = patch(radius, (0.0, 2.0 * _PI), elevation)
         scene.add_mesh_simple(
-            f"{path}/{name}", vertices, faces, color=colour, opacity=opacity, side="double", cast_shadow=name == "earth"
+            f"{path}/{name}",
+            vertices,
+            faces,
+            color=colour,
+            opacity=opacity,
+            side="double",
+            cast_shadow=name == "earth",
         )
 
 
@@ -51,12 +63,17 @@ def _draw_marks(scene: "SceneApi", path: str, radius: float) -> None:
         squares = [patch(1.004 * radius, (a - half, a + half), (-belt, belt)) for a in starts]
         draw(scene, f"{path}/{name}", merged(squares), colour)
     lines = [
-        circle(1.002 * radius, (np.cos(a), np.sin(a), 0.0), (0.0, 0.0, 1.0)) for a in np.radians(np.arange(0.0, 180.0, 30.0))
+        circle(1.002 * radius, (np.cos(a), np.sin(a), 0.0), (0.0, 0.0, 1.0))
+        for a in np.radians(np.arange(0.0, 180.0, 30.0))
     ]
     for elevation in np.radians([-60.0, -30.0, 30.0, 60.0]):
         height = (0.0, 0.0, 1.002 * radius * np.sin(elevation))
-        lines.append(circle(1.002 * radius * np.cos(elevation), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)) + height)
-    scene.add_line_segments(f"{path}/net", points=np.vstack(lines), colors=_INK, thickness=0.006 * radius)
+        lines.append(
+            circle(1.002 * radius * np.cos(elevation), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)) + height
+        )
+    scene.add_line_segments(
+        f"{path}/net", points=np.vstack(lines), colors=_INK, thickness=0.006 * radius
+    )
     vertices, faces = patch(1.008 * radius, (0.0, 2.0 * _PI), (_UP - np.radians(9.0), _UP))
     draw(scene, f"{path}/crown", (vertices, faces), _WHITE)
     draw(scene, f"{path}/nose", (vertices[:, [2, 0, 1]], faces), _NOSE)
@@ -67,15 +84,26 @@ def _draw_cockpit(scene: "SceneApi", path: str, radius: float) -> None:
     """A deck, a console and a screen all round the front."""
     deck = -0.72 * radius
     draw(
-        scene, f"{path}/deck", rod((0.0, 0.0, deck - 0.02 * radius), (0.0, 0.0, deck), 0.66 * radius, sides=48), (120, 128, 140)
+        scene,
+        f"{path}/deck",
+        rod((0.0, 0.0, deck - 0.02 * radius), (0.0, 0.0, deck), 0.66 * radius, sides=48),
+        (120, 128, 140),
     )
     for name, colour, distance, azimuth, elevation, opacity in (
         ("console", _SEAT, 0.62, 44.0, (-44.0, -24.0), 1.0),
         ("screen", _SCREEN, 0.86, 56.0, (-14.0, 22.0), 0.5),
     ):
-        vertices, faces = patch(distance * radius, _radians(-azimuth, azimuth), _radians(*elevation))
+        vertices, faces = patch(
+            distance * radius, _radians(-azimuth, azimuth), _radians(*elevation)
+        )
         scene.add_mesh_simple(
-            f"{path}/{name}", vertices, faces, color=colour, opacity=opacity, side="double", cast_shadow=name == "console"
+            f"{path}/{name}",
+            vertices,
+            faces,
+            color=colour,
+            opacity=opacity,
+            side="double",
+            cast_shadow=name == "console",
         )
 
 
@@ -83,13 +111,23 @@ def _draw_rider(scene: "SceneApi", path: str, radius: float, head: Array) -> Non
     """A seated rider below the platform's `rider.head_m`."""
     size = radius / _MAN
 
-    def limbs(pairs: list[tuple[tuple[float, float, float], tuple[float, float, float], float]]) -> Mesh:
+    def limbs(
+        pairs: list[tuple[tuple[float, float, float], tuple[float, float, float], float]],
+    ) -> Mesh:
         """Rods between pairs of points with a radius each, in a man's own size."""
-        return merged([rod(head + size * np.array(a), head + size * np.array(b), size * r) for a, b, r in pairs])
+        return merged(
+            [
+                rod(head + size * np.array(a), head + size * np.array(b), size * r)
+                for a, b, r in pairs
+            ]
+        )
 
     scene.add_icosphere(f"{path}/face", radius=0.12 * size, color=_SKIN, position=tuple(head))
     scene.add_icosphere(
-        f"{path}/helmet", radius=0.135 * size, color=_WHITE, position=tuple(head + size * np.array((-0.03, 0.0, 0.03)))
+        f"{path}/helmet",
+        radius=0.135 * size,
+        color=_WHITE,
+        position=tuple(head + size * np.array((-0.03, 0.0, 0.03))),
     )
     body = [((-0.06, 0.0, -0.70), (-0.02, 0.0, -0.18), 0.17)]
     for side in (-1.0, 1.0):

@@ -15,23 +15,46 @@ _BUTTONS: tuple[tuple[str, Literal["green", "yellow", "orange", "gray"], str], .
     ("park", "orange", "Bring the platform to its rest position"),
     ("reset", "gray", "Leave a fault behind"),
 )
-_COLOURS = {"running": "#00795a", "fault_stopping": "#b3261e", "stopped": "#b3261e", "parked": "#5b6470", ENDED: "#5b6470"}
+_COLOURS = {
+    "running": "#00795a",
+    "fault_stopping": "#b3261e",
+    "stopped": "#b3261e",
+    "parked": "#5b6470",
+    ENDED: "#5b6470",
+}
 _OTHER = "#b36b00"  # a state on the way to another
-_TABLE = '<table style="width:calc(100% - 28px);margin:6px 14px;font-size:14px;font-variant-numeric:tabular-nums">{}</table>'
-_ROW = '<tr><td style="color:#5b6470;padding-right:14px">{}</td><td style="text-align:right">{}</td></tr>'
+_TABLE = (
+    '<table style="width:calc(100% - 28px);margin:6px'
+    ' 14px;font-size:14px;font-variant-numeric:tabular-nums">{}</table>'
+)
+_ROW = (
+    '<tr><td style="color:#5b6470;padding-right:14px">{}</td><td'
+    ' style="text-align:right">{}</td></tr>'
+)
 
 
 class Controls:
     """The panel. A press goes to `press` if the state allows it, and is confirmed in the panel."""
 
     def __init__(
-        self, gui: "GuiApi", press: Callable[[str], object], allowed: Mapping[str, Collection[str]], names: Collection[str]
+        self,
+        gui: "GuiApi",
+        press: Callable[[str], object],
+        allowed: Mapping[str, Collection[str]],
+        names: Collection[str],
     ) -> None:
-        """`allowed` gives the buttons that do something in a state; a button that no state allows does nothing."""
+        """`allowed` gives the buttons that do something in a state.
+
+        A button that no state allows does nothing.
+        """
         self._press, self._allowed = press, allowed
         self._state, self._time = "", 0.0
         self._head = gui.add_html("")
-        self._buttons = {name: gui.add_button(name.capitalize(), color=c, hint=h) for name, c, h in _BUTTONS if name in names}
+        self._buttons = {
+            name: gui.add_button(name.capitalize(), color=c, hint=h)
+            for name, c, h in _BUTTONS
+            if name in names
+        }
         for name, button in self._buttons.items():
             button.on_click(self._clicked(name))
         self._note = gui.add_html("")
@@ -43,9 +66,10 @@ class Controls:
         self._state = state
         colour = _COLOURS.get(state, _OTHER)
         self._head.content = (
-            f'<div style="background:{colour};color:#fff;border-radius:6px;margin:8px 10px;padding:10px 14px">'
-            f'<div id="state" style="font-size:26px;font-weight:700">{html_text(state.replace("_", " "))}</div>'
-            f'<div id="reason" style="font-size:13px;min-height:1.3em">{html_text(reason)}</div></div>'
+            f'<div style="background:{colour};color:#fff;border-radius:6px;margin:8px'
+            ' 10px;padding:10px 14px"><div id="state"'
+            f' style="font-size:26px;font-weight:700">{html_text(state.replace("_", " "))}</div><div'
+            f' id="reason" style="font-size:13px;min-height:1.3em">{html_text(reason)}</div></div>'
         )
         for name, button in self._buttons.items():
             button.disabled = name not in self._allowed.get(state, ())
@@ -67,12 +91,16 @@ class Controls:
         return lambda _: self.click(name)
 
     def click(self, name: str) -> None:
-        """As if the button had been pressed; one that has been switched off since is told of and goes no further."""
+        """As if the button had been pressed.
+
+        One that has been switched off since is told of and goes no further.
+        """
         if name in self._allowed.get(self._state, ()):
             self._press(name)
             note = f"{name} asked at {self._time:.1f} s"
         else:
             note = f"{name} does nothing when {self._state.replace('_', ' ')}"
         self._note.content = (
-            f'<div id="note" style="margin:4px 14px;font-size:13px;color:#2c3440;min-height:1.4em">{html_text(note)}</div>'
+            '<div id="note" style="margin:4px'
+            f' 14px;font-size:13px;color:#2c3440;min-height:1.4em">{html_text(note)}</div>'
         )

@@ -1,4 +1,7 @@
-"""The specific force as an arrow at the head, in cabin axes: what pushes on the seat, so that 1 g upright points up."""
+"""The specific force as an arrow at the head, in cabin axes.
+
+What pushes on the seat, so that 1 g upright points up.
+"""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal
@@ -13,7 +16,9 @@ if TYPE_CHECKING:
     from viser import SceneApi
 
 USUAL = 2.0  # g (assumed); the largest of a flight that is not known yet, more is drawn as this
-_REACH = 0.9  # of the sphere's radius: the longest arrow; at the top of the stage its label is still in the picture
+# of the sphere's radius: the longest arrow; at the top of the stage its label is still in the
+# picture
+_REACH = 0.9
 _MOST_UNIT = 0.62  # of the sphere's radius, at 1 g: a gentle flight is not drawn larger
 _MOST = 8.0  # g; of a crash, more is drawn as this, so that 1 g can still be seen
 _SHORTEST = 1e-3  # g; less has no direction worth showing
@@ -24,7 +29,10 @@ class ForceScale:
     """How long a force is drawn, so that the largest of a flight stays in the picture."""
 
     def __init__(self, radius: float, largest: float = USUAL) -> None:
-        """For a sphere of `radius` (m) and forces up to `largest` (g); what is larger is drawn as long as that."""
+        """For a sphere of `radius` (m) and forces up to `largest` (g).
+
+        What is larger is drawn as long as that.
+        """
         self.largest = min(max(largest, _REACH / _MOST_UNIT), _MOST)
         self.unit = _REACH * radius / self.largest
         """Length of 1 g, m."""
@@ -41,9 +49,14 @@ class ForceScale:
 
 
 def largest_g(*forces: Array) -> float:
-    """The largest force, g, of rows of forces (m/s^2, (n, 3)); rows that are not finite do not count, 0 for none."""
+    """The largest force, g, of rows of forces (m/s^2, (n, 3)).
+
+    Rows that are not finite do not count, 0 for none.
+    """
     sizes = [np.linalg.norm(rows[np.isfinite(rows).all(axis=1)], axis=1) for rows in forces]
-    return max((float(found.max()) for found in sizes if len(found)), default=0.0) / STANDARD_GRAVITY
+    return (
+        max((float(found.max()) for found in sizes if len(found)), default=0.0) / STANDARD_GRAVITY
+    )
 
 
 class ForceArrow:
@@ -59,15 +72,24 @@ class ForceArrow:
         name: str,
         anchor: Literal["bottom-left", "bottom-right"],
     ) -> None:
-        """Drawn in the frame above `path`, `thick` m; `anchor`: which corner of the label is at the head."""
+        """Drawn in the frame above `path`, `thick` m.
+
+        `anchor`: which corner of the label is at the head.
+        """
         self._drawn, self._name, self._said = drawn, name, ""
         up = (0.0, 0.0, 1.0)
         self._frame = scene.add_frame(path, show_axes=False)
         vertices, faces = rod((0.0, 0.0, 0.0), up, thick)
-        self._shaft = scene.add_mesh_simple(f"{path}/shaft", vertices, faces, color=colour, cast_shadow=False)
+        self._shaft = scene.add_mesh_simple(
+            f"{path}/shaft", vertices, faces, color=colour, cast_shadow=False
+        )
         vertices, faces = rod((0.0, 0.0, 0.0), scale(7.0 * thick, up), 2.4 * thick, 0.0)
-        self._tip = scene.add_mesh_simple(f"{path}/tip", vertices, faces, color=colour, cast_shadow=False)
-        self._label = scene.add_label(f"{path}/tip/name", name, position=scale(7.0 * thick, up), anchor=anchor)
+        self._tip = scene.add_mesh_simple(
+            f"{path}/tip", vertices, faces, color=colour, cast_shadow=False
+        )
+        self._label = scene.add_label(
+            f"{path}/tip/name", name, position=scale(7.0 * thick, up), anchor=anchor
+        )
 
     def show(self, force: Sequence[float] | Array) -> None:
         """Point along `force` (m/s^2, cabin FRD)."""

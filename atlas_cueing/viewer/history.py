@@ -38,7 +38,10 @@ _TIMING = columns("/timing", "lateness_s", 5)
 
 
 class History:
-    """The thinned past. A point is the last tick of its STEP, with the largest lateness and cost of all."""
+    """The thinned past.
+
+    A point is the last tick of its STEP, with the largest lateness and cost of all.
+    """
 
     def __init__(self, head_S: Vec3) -> None:
         self._head_S = head_S
@@ -52,7 +55,9 @@ class History:
             return
         new = np.asarray(rows, dtype=np.float64).reshape(-1, LIVE_ROW)
         course = new if self._last is None else np.vstack([self._last, new])
-        self._angle = (self._angle + wheel_angles(course[:, _TIME], course[:, _WHEELS])[-1]) % (2.0 * np.pi)
+        self._angle = (self._angle + wheel_angles(course[:, _TIME], course[:, _WHEELS])[-1]) % (
+            2.0 * np.pi
+        )
         slots = np.floor(np.nan_to_num(new[:, _ELAPSED]) / STEP)
         for block in np.split(new, np.flatnonzero(np.diff(slots)) + 1):
             self._keep(block)
@@ -71,7 +76,9 @@ class History:
     @property
     def timing(self) -> tuple[float, float, float, float, int]:
         """Lateness, cost and input age (s), missed deadlines and place of the state of the last tick."""
-        lateness, cost, age, missed, state = (0.0,) * 5 if self._last is None else self._last[_TIMING].tolist()
+        lateness, cost, age, missed, state = (
+            (0.0,) * 5 if self._last is None else self._last[_TIMING].tolist()
+        )
         return lateness, cost, age, missed, int(state)
 
     def pose(self) -> Pose:
@@ -99,7 +106,9 @@ class History:
     def _keep(self, block: Array) -> None:
         point = block[-1].copy()
         worst = block[:, _LATENESS].max(axis=0)
-        if self._points and np.floor(self._points[-1][_ELAPSED] / STEP) == np.floor(point[_ELAPSED] / STEP):
+        if self._points and np.floor(self._points[-1][_ELAPSED] / STEP) == np.floor(
+            point[_ELAPSED] / STEP
+        ):
             worst = np.maximum(worst, self._points.pop()[_LATENESS])
         point[_LATENESS] = worst
         self._points.append(point)

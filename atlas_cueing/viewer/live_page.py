@@ -1,4 +1,7 @@
-"""The page of a live run, in a process of its own: whatever a browser does, the loop's process has no part in it."""
+"""The page of a live run, in a process of its own.
+
+Whatever a browser does, the loop's process has no part in it.
+"""
 
 from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import TYPE_CHECKING
@@ -51,7 +54,10 @@ class LivePage:
                 self._state, self._reason = status(data).state, status(data).reason
             elif kind == END:
                 end = status(data)
-                self._state, self._reason = ENDED, f"{end.state}: {end.reason}" if end.reason else end.state
+                self._state, self._reason = (
+                    ENDED,
+                    (f"{end.state}: {end.reason}" if end.reason else end.state),
+                )
         self._history.add(rows)
         if rows and self._state != ENDED:
             self._follow_ticks()

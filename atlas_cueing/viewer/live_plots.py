@@ -11,15 +11,24 @@ from .shapes import Array
 if TYPE_CHECKING:
     from viser import GuiApi
 
-_AXES = ("#d55e00", "#009e73", "#0072b2")  # x, y, z and wheels 1, 2, 3; colour-blind safe (Okabe & Ito 2008)
+# x, y, z and wheels 1, 2, 3; colour-blind safe (Okabe & Ito 2008)
+_AXES = ("#d55e00", "#009e73", "#0072b2")
 _LIMIT = "#888888"
 _HEIGHT = 132  # pixels
-_GREY = {"stroke": "#5b6470", "grid": {"stroke": "#e3e7ec", "width": 1}, "ticks": {"show": False}, "font": "11px sans-serif"}
+_GREY = {
+    "stroke": "#5b6470",
+    "grid": {"stroke": "#e3e7ec", "width": 1},
+    "ticks": {"show": False},
+    "font": "11px sans-serif",
+}
 
 
 @dataclass(frozen=True, slots=True)
 class Traces:
-    """Columns (n,) and (n, k) to plot: s, m/s^2, rad/s, m; `timing` is lateness and cost in s, None for a log."""
+    """Columns (n,) and (n, k) to plot: s, m/s^2, rad/s, m.
+
+    `timing` is lateness and cost in s, None for a log.
+    """
 
     time: Array
     pilot_f: Array
@@ -40,11 +49,19 @@ class Plots:
         self._travel = np.array(platform.stage_limit_values().travel)
         compared = [*_lines("xyz", ""), *_lines("xyz", " pilot", dash=(4, 3), width=1.0)]
         bounds = [_line("+ limit", _LIMIT, (2, 3)), _line("− limit", _LIMIT, (2, 3))]
-        self._force = _plot(gui, "Specific force, m/s²  (rider solid, pilot dashed; cabin x y z)", compared)
+        self._force = _plot(
+            gui, "Specific force, m/s²  (rider solid, pilot dashed; cabin x y z)", compared
+        )
         self._rate = _plot(gui, "Angular rate, deg/s", compared)
-        self._wheels = _plot(gui, "Wheel speed, % of its limit", [*_lines("123", "", before="wheel "), *bounds])
+        self._wheels = _plot(
+            gui, "Wheel speed, % of its limit", [*_lines("123", "", before="wheel "), *bounds]
+        )
         self._stage = _plot(gui, "Stage position, % of its travel", [*_lines("xyz", ""), *bounds])
-        self._timing = _plot(gui, "Loop, ms", [_line("late", _AXES[0]), _line("cost", _AXES[2])]) if timing else None
+        self._timing = (
+            _plot(gui, "Loop, ms", [_line("late", _AXES[0]), _line("cost", _AXES[2])])
+            if timing
+            else None
+        )
 
     def show(self, traces: Traces) -> None:
         """Replace what is drawn."""
@@ -58,7 +75,9 @@ class Plots:
 
 
 def _plot(gui: "GuiApi", title: str, lines: list[dict[str, Any]]) -> Any:
-    gui.add_html(f'<div style="font:600 12px sans-serif;color:#2c3440;padding:6px 12px 0">{title}</div>')
+    gui.add_html(
+        f'<div style="font:600 12px sans-serif;color:#2c3440;padding:6px 12px 0">{title}</div>'
+    )
     series: Any = ({"label": "s"}, *lines)
     axes: Any = ({**_GREY, "size": 26}, {**_GREY, "size": 46})
     return gui.add_uplot(
@@ -75,10 +94,22 @@ def _show(plot: Any, time: Array, *blocks: Array) -> None:
     plot.data = (time, *np.hstack(blocks).T)
 
 
-def _lines(names: str, after: str, *, before: str = "", dash: tuple[int, ...] = (), width: float = 1.6) -> list[dict[str, Any]]:
-    return [_line(f"{before}{name}{after}", colour, dash, width) for name, colour in zip(names, _AXES, strict=True)]
+def _lines(
+    names: str, after: str, *, before: str = "", dash: tuple[int, ...] = (), width: float = 1.6
+) -> list[dict[str, Any]]:
+    return [
+        _line(f"{before}{name}{after}", colour, dash, width)
+        for name, colour in zip(names, _AXES, strict=True)
+    ]
 
 
-def _line(label: str, colour: str, dash: tuple[int, ...] = (), width: float = 1.6) -> dict[str, Any]:
-    line: dict[str, Any] = {"label": label, "stroke": colour, "width": width, "points": {"show": False}}
+def _line(
+    label: str, colour: str, dash: tuple[int, ...] = (), width: float = 1.6
+) -> dict[str, Any]:
+    line: dict[str, Any] = {
+        "label": label,
+        "stroke": colour,
+        "width": width,
+        "points": {"show": False},
+    }
     return {**line, "dash": dash} if dash else line

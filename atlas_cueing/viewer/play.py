@@ -68,12 +68,19 @@ class PlayPage:
         self._button = gui.add_button("Pause", hint="Play or pause")
         length = max(self.head.end - self.head.start, STEP)
         self._bar: Any = gui.add_slider(
-            "time, s", self.head.start, self.head.start + length, step=STEP, initial_value=self.head.start
+            "time, s",
+            self.head.start,
+            self.head.start + length,
+            step=STEP,
+            initial_value=self.head.start,
         )
         speed: Any = gui.add_button_group("speed", _SPEEDS)
         self._button.on_click(lambda _: self.head.toggle())
-        self._bar.on_update(lambda event: None if event.client is None else self.head.seek(self._bar.value))
-        speed.on_click(lambda _: self.head.run_at(_TIMES.get(speed.value, self.head.speed)))  # any text a client sends
+        self._bar.on_update(
+            lambda event: None if event.client is None else self.head.seek(self._bar.value)
+        )
+        # any text a client sends
+        speed.on_click(lambda _: self.head.run_at(_TIMES.get(speed.value, self.head.speed)))
         gui.add_html(KEY)
         panel = gui.add_panel()
         with panel.add_tab("Last 20 s"):
@@ -102,15 +109,27 @@ class PlayPage:
         time = self._flight.time[self._points]
         ticks = self._points[(time > self.head.at - SPAN) & (time <= self.head.at)]
         f = self._flight
-        columns = (f.time, f.vehicle_f_B, f.felt_f, f.vehicle_w_B, f.felt_w, f.wheel_speed, f.motion_p_W)
-        time, pilot_f, felt_f, pilot_w, felt_w, wheel_speed, p_W = (column[ticks] for column in columns)
+        columns = (
+            f.time,
+            f.vehicle_f_B,
+            f.felt_f,
+            f.vehicle_w_B,
+            f.felt_w,
+            f.wheel_speed,
+            f.motion_p_W,
+        )
+        time, pilot_f, felt_f, pilot_w, felt_w, wheel_speed, p_W = (
+            column[ticks] for column in columns
+        )
         return Traces(time, pilot_f, felt_f, pilot_w, felt_w, wheel_speed, p_W, None)
 
 
 def thinned(time: np.ndarray) -> np.ndarray:
     """Ticks to plot, about STEP apart."""
     count = int((time[-1] - time[0]) / STEP) + 1
-    return np.unique(np.searchsorted(time, time[0] + STEP * np.arange(count)).clip(0, len(time) - 1))
+    return np.unique(
+        np.searchsorted(time, time[0] + STEP * np.arange(count)).clip(0, len(time) - 1)
+    )
 
 
 def play(
@@ -124,8 +143,8 @@ def play(
 ) -> None:
     """Serve a flight at `port` (0 for any free one) until Ctrl-C, or until `go_on` says no.
 
-    `told` is given the page's address. Raises InputError when viser is missing, the port is in use, or there is no motion to
-    show.
+    `told` is given the page's address. Raises InputError when viser is missing, the port is in use,
+    or there is no motion to show.
     """
     check_viser("live")
     RecordedMotion(flight)

@@ -9,10 +9,16 @@ from .shapes import Array
 
 
 class RecordedMotion:
-    """Poses of a flight. Raises InputError when it has no ticks, or numbers in its motion that are none."""
+    """Poses of a flight.
+
+    Raises InputError when it has no ticks, or numbers in its motion that are none.
+    """
 
     def __init__(self, flight: RunColumns) -> None:
-        if not len(flight.time) or not np.isfinite(np.hstack([flight.motion_q_WS, flight.motion_p_W])).all():
+        if (
+            not len(flight.time)
+            or not np.isfinite(np.hstack([flight.motion_q_WS, flight.motion_p_W])).all()
+        ):
             raise InputError("no motion to show: the log has no ticks, or numbers that are none")
         self._flight = flight
         self._angle = wheel_angles(flight.time, flight.wheel_speed)
@@ -25,6 +31,9 @@ class RecordedMotion:
 
 
 def wheel_angles(time: Array, speed: Array) -> Array:
-    """How far each wheel has turned since the first tick, rad, (n, 3), by trapezoids; one that is no number counts 0."""
+    """How far each wheel has turned since the first tick, rad, (n, 3), by trapezoids.
+
+    One that is no number counts 0.
+    """
     steps = 0.5 * np.diff(time)[:, None] * (speed[:-1] + speed[1:])
     return np.concatenate([np.zeros((1, 3)), np.cumsum(np.nan_to_num(steps), axis=0)])

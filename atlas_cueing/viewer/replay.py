@@ -1,7 +1,7 @@
 """The platform in motion: one self-contained HTML file with a play bar.
 
-viser draws what its server would send to a browser; the server is bound to the loopback, nobody calls it, and it is stopped as
-soon as the file is written.
+viser draws what its server would send to a browser; the server is bound to the loopback, nobody
+calls it, and it is stopped as soon as the file is written.
 """
 
 from pathlib import Path
@@ -27,9 +27,12 @@ MOST_FRAMES = 9000  # of a long flight, which gets fewer a second
 
 
 def write_replay(platform: Platform, flight: RunColumns, file: str | Path) -> None:
-    """Write the flight as a 3D replay into `file`: sphere with its cockpit, wheels, stage in its travel.
+    """Write the flight as a 3D replay into `file`.
 
-    Raises InputError when viser is not installed or there is no motion to show, OutputError when the file cannot be written.
+    Sphere with its cockpit, wheels, stage in its travel.
+
+    Raises InputError when viser is not installed or there is no motion to show, OutputError when
+    the file cannot be written.
     """
     check_viser("report")
     motion, largest = RecordedMotion(flight), largest_g(flight.vehicle_f_B, flight.felt_f)
@@ -53,7 +56,9 @@ def frames(time: Array) -> tuple[Array, float]:
     return shown, duration / count
 
 
-def _replay(server: "ViserServer", scene: Scene, motion: RecordedMotion, shown: Array, pause: float) -> str:
+def _replay(
+    server: "ViserServer", scene: Scene, motion: RecordedMotion, shown: Array, pause: float
+) -> str:
     """Move what is drawn, frame by frame."""
     recording = server.get_scene_serializer()
     for tick in shown:

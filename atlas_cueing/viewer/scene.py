@@ -1,4 +1,7 @@
-"""The platform drawn in space: sphere with its cockpit, wheels, stage. The same for a live run, a log and a replay file."""
+"""The platform drawn in space: sphere with its cockpit, wheels, stage.
+
+The same for a live run, a log and a replay file.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -19,10 +22,15 @@ if TYPE_CHECKING:
 
 FELT, PILOT = (0, 158, 115), (213, 94, 0)  # colour-blind safe (Okabe & Ito 2008)
 _SKY, _HAZE = (214, 226, 238), (250, 251, 252)  # background, top and bottom
-_SCALE_AT = (1.7, 0.1)  # of the sphere's radius: x, y of the words on the arrows' scale, on the floor, left for the camera
+# of the sphere's radius: x, y of the words on the arrows' scale, on the floor, left for the camera
+_SCALE_AT = (1.7, 0.1)
 
-_KEY = '<div style="margin:2px 14px;font-size:13px"><span style="color:rgb{}">&#9650;</span> {}</div>'
-KEY = _KEY.format(FELT, "specific force on the rider") + _KEY.format(PILOT, "on the pilot in the vehicle")
+_KEY = (
+    '<div style="margin:2px 14px;font-size:13px"><span style="color:rgb{}">&#9650;</span> {}</div>'
+)
+KEY = _KEY.format(FELT, "specific force on the rider") + _KEY.format(
+    PILOT, "on the pilot in the vehicle"
+)
 """What the arrows are, as HTML."""
 
 
@@ -30,7 +38,8 @@ KEY = _KEY.format(FELT, "specific force on the rider") + _KEY.format(PILOT, "on 
 class Pose:
     """One moment.
 
-    Orientation q_WS, stage position (m, W), angle of each wheel (rad), specific force of pilot and rider (m/s^2, FRD).
+    Orientation q_WS, stage position (m, W), angle of each wheel (rad), specific force of pilot and
+    rider (m/s^2, FRD).
     """
 
     q_WS: Sequence[float] | Array
@@ -43,7 +52,8 @@ class Pose:
     def finite(self) -> bool:
         """Whether it can be drawn."""
         return all(
-            bool(np.isfinite(part).all()) for part in (self.q_WS, self.p_W, self.wheel_angle, self.vehicle_f, self.felt_f)
+            bool(np.isfinite(part).all())
+            for part in (self.q_WS, self.p_W, self.wheel_angle, self.vehicle_f, self.felt_f)
         )
 
 
@@ -58,15 +68,21 @@ class Scene:
         scene.configure_environment_map(
             None
         )  # a picture of a room to light it is large, and the page fades in until it is there
-        scene.add_light_hemisphere("/light", sky_color=(255, 255, 255), ground_color=(200, 190, 180), intensity=2.2)
+        scene.add_light_hemisphere(
+            "/light", sky_color=(255, 255, 255), ground_color=(200, 190, 180), intensity=2.2
+        )
         self._stage: Stage = draw_stage(scene, platform)
         self._wheels = draw_wheels(scene, self._stage.path, platform)
         self._cabin = draw_cabin(scene, f"{self._stage.path}/cabin", platform)
         head = f"{self._stage.path}/cabin/head"
         scene.add_frame(head, show_axes=False, position=platform.head_S)
         drawn = ForceScale(radius, largest)
-        self._pilot = ForceArrow(scene, f"{head}/pilot", drawn, 0.022 * radius, PILOT, "vehicle", "bottom-right")
-        self._felt = ForceArrow(scene, f"{head}/felt", drawn, 0.03 * radius, FELT, "rider", "bottom-left")
+        self._pilot = ForceArrow(
+            scene, f"{head}/pilot", drawn, 0.022 * radius, PILOT, "vehicle", "bottom-right"
+        )
+        self._felt = ForceArrow(
+            scene, f"{head}/felt", drawn, 0.03 * radius, FELT, "rider", "bottom-left"
+        )
         place = (_SCALE_AT[0] * radius, _SCALE_AT[1] * radius, self._stage.floor)
         scene.add_label("/scale", drawn.told, position=place, anchor="center-center")
         camera, middle = server.initial_camera, 0.5 * self._stage.floor

@@ -1,4 +1,6 @@
-"""A viser server that only this machine can talk to: bound to the loopback, silent, and deaf to pages of other hosts.
+"""A viser server that only this machine can talk to.
+
+Bound to the loopback, silent, and deaf to pages of other hosts.
 
 The only place that starts viser.
 """
@@ -27,7 +29,10 @@ def check_viser(extra: str) -> None:
 
 
 def open_server(port: int, title: str | None = None) -> "ViserServer":
-    """Serve an empty page at `port`, 0 for any free one. Raises InputError when the port is in use."""
+    """Serve an empty page at `port`, 0 for any free one.
+
+    Raises InputError when the port is in use.
+    """
     from viser import ViserServer
 
     with redirect_stdout(StringIO()), gated():  # a banner

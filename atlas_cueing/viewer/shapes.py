@@ -1,4 +1,7 @@
-"""Triangles for what viser has no shape of; vertices (n, 3) in m and faces (m, 3) of their numbers."""
+"""Triangles for what viser has no shape of.
+
+Vertices (n, 3) in m and faces (m, 3) of their numbers.
+"""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeAlias
@@ -21,10 +24,18 @@ def patch(radius: float, azimuth: tuple[float, float], elevation: tuple[float, f
     a = np.linspace(*azimuth, max(2, int(np.ceil((azimuth[1] - azimuth[0]) / _FINE)) + 1))
     e = np.linspace(*elevation, max(2, int(np.ceil((elevation[1] - elevation[0]) / _FINE)) + 1))
     ea, aa = (grid.ravel() for grid in np.meshgrid(e, a, indexing="ij"))
-    return radius * np.column_stack([np.cos(ea) * np.cos(aa), np.cos(ea) * np.sin(aa), np.sin(ea)]), _grid(len(e), len(a))
+    return radius * np.column_stack(
+        [np.cos(ea) * np.cos(aa), np.cos(ea) * np.sin(aa), np.sin(ea)]
+    ), _grid(len(e), len(a))
 
 
-def rod(start: Sequence[float] | Array, end: Sequence[float] | Array, radius: float, tip: float = 1.0, sides: int = 16) -> Mesh:
+def rod(
+    start: Sequence[float] | Array,
+    end: Sequence[float] | Array,
+    radius: float,
+    tip: float = 1.0,
+    sides: int = 16,
+) -> Mesh:
     """A closed rod from start to end; at the end it has `tip` times its radius, 0 for a cone."""
     start, end = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
     along = (end - start) / np.linalg.norm(end - start)
@@ -32,7 +43,14 @@ def rod(start: Sequence[float] | Array, end: Sequence[float] | Array, radius: fl
     across /= np.linalg.norm(across)
     turn = np.linspace(0.0, 2.0 * np.pi, sides + 1)[:, None]
     ring = radius * (np.cos(turn) * across + np.sin(turn) * np.cross(along, across))
-    rows = [start + 0.0 * ring, start + ring, start + ring, end + tip * ring, end + tip * ring, end + 0.0 * ring]
+    rows = [
+        start + 0.0 * ring,
+        start + ring,
+        start + ring,
+        end + tip * ring,
+        end + tip * ring,
+        end + 0.0 * ring,
+    ]
     faces = np.vstack(
         [_grid(2, sides + 1) + 2 * k * (sides + 1) for k in range(3)]
     )  # two ends and the side, with edges between
@@ -48,11 +66,15 @@ def spindle(centre: Array, axis: Array, length: float, radius: float) -> Mesh:
 def merged(meshes: Sequence[Mesh]) -> Mesh:
     """Many meshes as one."""
     starts = np.cumsum([0] + [len(vertices) for vertices, _ in meshes])
-    faces = np.vstack([faces + start for (_, faces), start in zip(meshes, starts[:-1], strict=True)])
+    faces = np.vstack(
+        [faces + start for (_, faces), start in zip(meshes, starts[:-1], strict=True)]
+    )
     return np.vstack([vertices for vertices, _ in meshes]), faces.astype(np.uint32)
 
 
-def circle(radius: float, first: Sequence[float], second: Sequence[float], count: int = 96) -> Array:
+def circle(
+    radius: float, first: Sequence[float], second: Sequence[float], count: int = 96
+) -> Array:
     """A circle through two directions at right angles, as segments (count, 2, 3)."""
     turn = np.linspace(0.0, 2.0 * np.pi, count + 1)[:, None]
     points = radius * (np.cos(turn) * np.asarray(first) + np.sin(turn) * np.asarray(second))

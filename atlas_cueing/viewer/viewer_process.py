@@ -23,8 +23,9 @@ _PATIENCE = 60.0  # s; viser starts in 0.3 s on an idle machine
 class ViewerProcess:
     """A page that shows what comes through `ring` and gives its button presses to `press`.
 
-    To be started before the loop: by `fork`, which shares the ring and what `press` writes to. It never holds the writer up,
-    for it only reads. After the ring's END the page stays; the process ends with `close`, or when this process does.
+    To be started before the loop: by `fork`, which shares the ring and what `press` writes to. It
+    never holds the writer up, for it only reads. After the ring's END the page stays; the process
+    ends with `close`, or when this process does.
     """
 
     def __init__(
@@ -39,14 +40,17 @@ class ViewerProcess:
     ) -> None:
         """Start to serve at `port`, 0 for any free one.
 
-        `press` is called in the other process with the name of a button that `allowed` has for the present state. Raises
-        InputError when viser is missing or the port is in use.
+        `press` is called in the other process with the name of a button that `allowed` has for the
+        present state. Raises InputError when viser is missing or the port is in use.
         """
         check_viser("live")
         context = get_context("fork")
         here, there = context.Pipe(duplex=False)
         self._process = context.Process(
-            target=_show, args=(there, os.getpid(), ring, platform, press, allowed, port, title), name="viewer", daemon=True
+            target=_show,
+            args=(there, os.getpid(), ring, platform, press, allowed, port, title),
+            name="viewer",
+            daemon=True,
         )
         self._process.start()
         there.close()
@@ -82,7 +86,12 @@ class ViewerProcess:
     def __enter__(self) -> "ViewerProcess":
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
         self.close()
 
 
@@ -101,7 +110,8 @@ def _show(
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the loop, which then closes this
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     os.nice(_NICENESS)
-    sys.stdout = open(os.devnull, "w")  # noqa: SIM115 - for the rest of this process; results of the program go to stdout
+    # For the rest of this process; results of the program go to stdout
+    sys.stdout = open(os.devnull, "w")  # noqa: SIM115
     from .live_page import LivePage
     from .server import open_server
 

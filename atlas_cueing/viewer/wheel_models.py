@@ -30,9 +30,18 @@ def _draw_wheel(scene: "SceneApi", path: str, platform: Platform, k: int) -> Whe
     at_rest = shortest_arc((0.0, 0.0, 1.0), (float(axle[0]), float(axle[1]), float(axle[2])))
     centre = np.array(wheel.contact) * (platform.sphere.radius_m + r)
     frame = scene.add_frame(path, show_axes=False, position=centre, wxyz=at_rest)
-    for name, mesh, colour in (("hub", _hub(r), _HUB), ("rollers", _rollers(r), _ROLLER), ("marks", _marks(r), _MARK)):
+    for name, mesh, colour in (
+        ("hub", _hub(r), _HUB),
+        ("rollers", _rollers(r), _ROLLER),
+        ("marks", _marks(r), _MARK),
+    ):
         draw(scene, f"{path}/{name}", mesh, colour)
-    draw(scene, f"{path}_motor", rod(centre + 0.5 * _WIDTH * r * axle, centre + 2.0 * r * axle, 0.55 * r), _MOTOR)
+    draw(
+        scene,
+        f"{path}_motor",
+        rod(centre + 0.5 * _WIDTH * r * axle, centre + 2.0 * r * axle, 0.55 * r),
+        _MOTOR,
+    )
     return frame, at_rest
 
 
@@ -47,7 +56,10 @@ def _rollers(r: float) -> Mesh:
     return merged(
         [
             spindle(
-                (r - thick) * np.array((np.cos(a), np.sin(a), 0.0)), np.array((-np.sin(a), np.cos(a), 0.0)), 0.36 * r, thick
+                (r - thick) * np.array((np.cos(a), np.sin(a), 0.0)),
+                np.array((-np.sin(a), np.cos(a), 0.0)),
+                0.36 * r,
+                thick,
             )
             for a in around
         ]

@@ -18,9 +18,14 @@ class Wheels:
         self.wheels_from_sphere: Mat3 = geometry.wheels_from_sphere
 
     def speeds(self, motion: Motion) -> WheelSpeeds:
-        """Speed (Eq. 22) and acceleration (Eq. 19, inverted) of each wheel; J is constant, so the same map serves both."""
+        """Speed (Eq. 22) and acceleration (Eq. 19, inverted) of each wheel.
+
+        J is constant, so the same map serves both.
+        """
         inverse = self.wheels_from_sphere
-        return WheelSpeeds(motion.time, apply(inverse, motion.w_WS_W), apply(inverse, motion.alpha_WS_W))
+        return WheelSpeeds(
+            motion.time, apply(inverse, motion.w_WS_W), apply(inverse, motion.alpha_WS_W)
+        )
 
     def torques(self, moment_W: Vec3) -> Vec3:
         """Torque (N m) of each wheel that puts `moment_W` (N m, W) on the sphere at rest, without friction: J^T M.

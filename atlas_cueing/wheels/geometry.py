@@ -15,10 +15,12 @@ import numpy as np
 from ..errors import InputError, SlipConditionError
 from ..rotation import Mat3, Vec3, cross, dot, norm, scale, subtract
 
-# A drive direction typed with three decimals is off its tangent by up to 1e-3; beyond that the file means something else.
+# A drive direction typed with three decimals is off its tangent by up to 1e-3; beyond that the file
+# means something else.
 TANGENT_TOLERANCE = 1e-3
 
-# From here on a wheel speed error of 1e-6 becomes a sphere rate error of order one: no drive can turn that sphere.
+# From here on a wheel speed error of 1e-6 becomes a sphere rate error of order one: no drive can
+# turn that sphere.
 LARGEST_CONDITION_NUMBER = 1e6
 
 
@@ -32,16 +34,19 @@ class OmniWheel:
 
     @classmethod
     def along(cls, contact: Vec3, drive: Vec3, radius: float) -> "OmniWheel":
-        """Wheel from two directions of any length; what is left of `drive` off the tangent plane is taken out.
+        """Wheel from two directions of any length.
 
-        Raises InputError when a direction has no length or `drive` misses the tangent plane by more than TANGENT_TOLERANCE.
+        What is left of `drive` off the tangent plane is taken out.
+
+        Raises InputError when a direction has no length or `drive` misses the tangent plane by more
+        than TANGENT_TOLERANCE.
         """
         R, v = _unit("contact", contact), _unit("drive", drive)
         off = dot(R, v)
         if abs(off) > TANGENT_TOLERANCE:
             raise InputError(
-                f"drive must be tangent to the sphere: |contact . drive| = {abs(off):.3g} of unit vectors, "
-                f"allowed: 0 <= |contact . drive| <= {TANGENT_TOLERANCE:g}"
+                f"drive must be tangent to the sphere: |contact . drive| = {abs(off):.3g} of unit"
+                f" vectors, allowed: 0 <= |contact . drive| <= {TANGENT_TOLERANCE:g}"
             )
         return cls(R, _unit("drive", subtract(v, scale(off, R))), radius)
 
@@ -73,7 +78,10 @@ class Geometry:
 
     @property
     def condition_number(self) -> float:
-        """Ratio of the largest to the smallest singular value of the induced rows: 1 at best, up to infinity."""
+        """Ratio of the largest to the smallest singular value of the induced rows.
+
+        1 at best, up to infinity.
+        """
         return float(np.linalg.cond(np.array(self.induced_rows)))
 
     @property
@@ -95,11 +103,17 @@ class Geometry:
         Raises SlipConditionError for a singular geometry.
         """
         if not self.slip_free:
-            raise SlipConditionError(self.name, self.determinant, self.condition_number, LARGEST_CONDITION_NUMBER)
+            raise SlipConditionError(
+                self.name, self.determinant, self.condition_number, LARGEST_CONDITION_NUMBER
+            )
         a, b, c = self.induced_rows
-        # The inverse of a matrix with rows a, b, c has the columns b x c, c x a, a x b over its determinant.
+        # The inverse of a matrix with rows a, b, c has the columns b x c, c x a, a x b over its
+        # determinant.
         columns = zip((cross(b, c), cross(c, a), cross(a, b)), self.wheels, strict=True)
-        scaled = [scale(wheel.radius / (self.sphere_radius * self.determinant), column) for column, wheel in columns]
+        scaled = [
+            scale(wheel.radius / (self.sphere_radius * self.determinant), column)
+            for column, wheel in columns
+        ]
         x, y, z = zip(*scaled, strict=True)
         return (x, y, z)
 

@@ -9,7 +9,10 @@ from .geometry import Geometry
 
 @dataclass(frozen=True, slots=True)
 class Headroom:
-    """Largest sphere rate (rad/s) and acceleration (rad/s^2): about x, y, z of W alone, and about whatever axis is worst."""
+    """Largest sphere rate (rad/s) and acceleration (rad/s^2).
+
+    About x, y, z of W alone, and about whatever axis is worst.
+    """
 
     rate: Vec3
     worst_rate: float

@@ -30,7 +30,9 @@ def address() -> Iterator[str]:
 
     with (
         dask.config.set({"distributed.scheduler.allowed-failures": 1}),
-        LocalCluster(n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0") as local,
+        LocalCluster(
+            n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0"
+        ) as local,
     ):
         yield local.scheduler_address
 
@@ -40,7 +42,9 @@ def test_the_same_bytes_as_without_a_cluster(tmp_path: Path, address: str) -> No
     with on_cluster(address, 2) as fly:
         outcomes = fly_batch(runs, FolderStore(tmp_path / "cluster"), fly, LIMITS)
     assert all(outcome.record and outcome.record.clean for outcome in outcomes)
-    fly_batch(runs, FolderStore(tmp_path / "here"), lambda orders, stop: fly_here(orders, 1, stop), LIMITS)
+    fly_batch(
+        runs, FolderStore(tmp_path / "here"), lambda orders, stop: fly_here(orders, 1, stop), LIMITS
+    )
     assert hashes(tmp_path / "cluster") == hashes(tmp_path / "here")
     assert len(hashes(tmp_path / "here")) == 4
 
@@ -51,7 +55,9 @@ def test_more_runs_than_the_scheduler_is_told_of_at_a_time(
     monkeypatch.setattr(cluster_module, "_UNDER_WAY", 2)
     runs = planned(tmp_path)
     with on_cluster(address, 2) as fly:
-        assert {record.id for record in fly((order(run, tmp_path) for run in runs), lambda: False)} == {run.id for run in runs}
+        assert {
+            record.id for record in fly((order(run, tmp_path) for run in runs), lambda: False)
+        } == {run.id for run in runs}
 
 
 def test_stopping_begins_nothing_more(tmp_path: Path, address: str) -> None:
@@ -62,7 +68,9 @@ def test_stopping_begins_nothing_more(tmp_path: Path, address: str) -> None:
 def test_a_killed_dask_worker_costs_its_run_a_second_try(tmp_path: Path, address: str) -> None:
     from distributed import Client
 
-    runs = planned(tmp_path, "vehicle.script=c1722", "duration_s=30", 'sweep.cueing.method=["blend","force"]')
+    runs = planned(
+        tmp_path, "vehicle.script=c1722", "duration_s=30", 'sweep.cueing.method=["blend","force"]'
+    )
 
     def kill() -> None:
         while not list(tmp_path.glob("*.part")):
@@ -82,14 +90,23 @@ def test_a_cluster_of_ones_own_listens_on_the_loopback_only() -> None:
     """A scheduler or worker runs whatever program it is handed."""
     with on_cluster(LOCAL, 1):
         here = psutil.Process()
-        sockets = [each for process in (here, *here.children(recursive=True)) for each in process.net_connections("inet")]
+        sockets = [
+            each
+            for process in (here, *here.children(recursive=True))
+            for each in process.net_connections("inet")
+        ]
     listening = [each.laddr.ip for each in sockets if each.status == psutil.CONN_LISTEN]
     assert set(listening) == {"127.0.0.1"}
     assert len(listening) >= 2
 
 
-def test_a_run_done_before_its_worker_was_lost_is_not_flown_again(tmp_path: Path, address: str) -> None:
-    """The scheduler recomputes results that only the lost worker had; the record that is there answers instead."""
+def test_a_run_done_before_its_worker_was_lost_is_not_flown_again(
+    tmp_path: Path, address: str
+) -> None:
+    """The scheduler recomputes results that only the lost worker had.
+
+    The record that is there answers instead.
+    """
     run = planned(tmp_path)[0]
     with on_cluster(address, 2) as fly:
         (first,) = fly([order(run, tmp_path)], lambda: False)
@@ -117,12 +134,22 @@ class KilledWorker(Exception):  # noqa: N818 - distributed's name
 @pytest.mark.parametrize(
     ("future", "result", "reason"),
     [
-        (Future("error", KilledWorker("4 times")), "worker_lost", "its worker process died 2 times"),
-        (Future("error", ModuleNotFoundError("atlas_cueing")), "worker_differs", "ModuleNotFoundError: atlas_cueing"),
+        (
+            Future("error", KilledWorker("4 times")),
+            "worker_lost",
+            "its worker process died 2 times",
+        ),
+        (
+            Future("error", ModuleNotFoundError("atlas_cueing")),
+            "worker_differs",
+            "ModuleNotFoundError: atlas_cueing",
+        ),
         (Future("cancelled"), "worker_lost", "the cluster gave it up"),
     ],
 )
-def test_what_a_cluster_may_say_instead(tmp_path: Path, future: Any, result: str, reason: str) -> None:
+def test_what_a_cluster_may_say_instead(
+    tmp_path: Path, future: Any, result: str, reason: str
+) -> None:
     record = cluster_module._record(future, order(planned(tmp_path)[0], tmp_path))
     assert (record.result, record.final) == (result, False)
     assert reason in record.reason
@@ -144,12 +171,18 @@ def test_no_scheduler_there(monkeypatch: pytest.MonkeyPatch) -> None:
         on_cluster("tcp://127.0.0.1:1", 1),
     ):
         pytest.fail("there is one")
-    with pytest.raises(InputError, match="--cluster nonsense: no scheduler reached"), on_cluster("nonsense", 1):
+    with (
+        pytest.raises(InputError, match="--cluster nonsense: no scheduler reached"),
+        on_cluster("nonsense", 1),
+    ):
         pytest.fail("there is one")
 
 
 @pytest.mark.parametrize("address", [LOCAL, "tcp://127.0.0.1:1"])
 def test_without_dask(monkeypatch: pytest.MonkeyPatch, address: str) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(InputError, match=r"pip install 'atlas_cueing\[cluster\]'"), on_cluster(address, 1):
+    with (
+        pytest.raises(InputError, match=r"pip install 'atlas_cueing\[cluster\]'"),
+        on_cluster(address, 1),
+    ):
         pytest.fail("there is none")

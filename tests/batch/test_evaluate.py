@@ -33,15 +33,22 @@ def test_the_log_alone_gives_the_figures_of_the_run(load: Load, tmp_path: Path, 
 def test_a_weaker_platform_would_have_been_violated(load: Load, tmp_path: Path) -> None:
     """The same log against a tenth of the limits: the check can fail."""
     log = run_scenario(load(), tmp_path / "log.mcap").log
-    weaker = load("platform.wheel_limits.jerk_rad_s3=0.001", "platform.stage_limits.travel_m=0.00001").platform
+    weaker = load(
+        "platform.wheel_limits.jerk_rad_s3=0.001", "platform.stage_limits.travel_m=0.00001"
+    ).platform
     found = evaluate_log(log, weaker).violations
     assert any(line.startswith("wheel_jerk_difference") for line in found)
     assert any(line.startswith("stage_travel_logged") for line in found)
 
 
 def test_the_wheels_of_another_platform_do_not_fit(load: Load, tmp_path: Path) -> None:
-    log = run_scenario(load("vehicle.script=c172_elevator_doublet", "duration_s=5"), tmp_path / "log.mcap").log
-    right, wrong = (evaluate_log(log, load_platform(name)).metrics for name in ("atlas-2.9m", "atlas-orthogonal"))
+    log = run_scenario(
+        load("vehicle.script=c172_elevator_doublet", "duration_s=5"), tmp_path / "log.mcap"
+    ).log
+    right, wrong = (
+        evaluate_log(log, load_platform(name)).metrics
+        for name in ("atlas-2.9m", "atlas-orthogonal")
+    )
     assert right["wheel_speed_mismatch_max_rad_s"] < 1e-12
     assert wrong["wheel_speed_mismatch_max_rad_s"] > 0.01
     assert wrong["orientation_drift_max_rad"] > 10.0 * right["orientation_drift_max_rad"]
@@ -72,13 +79,19 @@ def long_log(load: Load, tmp_path: Path) -> Callable[[int], tuple[Scenario, Path
     scenario = load("cueing.method=attitude")
     flown = read_log(run_scenario(scenario, tmp_path / "short.mcap").log)
     second = np.hstack([flown.tables[topic.name].values for topic in TOPICS[:4]])
-    times = [k for k, name in enumerate(name for topic in TOPICS[:4] for name in topic.fields) if name == "time_s"]
+    times = [
+        k
+        for k, name in enumerate(name for topic in TOPICS[:4] for name in topic.fields)
+        if name == "time_s"
+    ]
 
     def record(ticks: int) -> tuple[Scenario, Path]:
         rows = second[np.arange(ticks) % len(second)]
         rows[:, times] = (np.arange(ticks) / 1000.0)[:, None]
         log = tmp_path / f"{ticks}.mcap"
-        recorder = McapRecorder(log, head_S=scenario.platform.head_S, metadata={}, attachments=scenario.attachments())
+        recorder = McapRecorder(
+            log, head_S=scenario.platform.head_S, metadata={}, attachments=scenario.attachments()
+        )
         for start in range(0, ticks, 500):
             for row in rows[start : start + 500]:
                 recorder.append_live(row.tobytes())
@@ -89,31 +102,48 @@ def long_log(load: Load, tmp_path: Path) -> Callable[[int], tuple[Scenario, Path
     return record
 
 
-@pytest.mark.parametrize(("ticks", "chunk"), [(500, 7), (BLOCK_TICKS, 512), (LONG, 512), (LONG, 16384), (2 * BLOCK_TICKS, 100)])
-def test_run_and_review_agree_to_the_last_bit(long_log: Callable[[int], tuple[Scenario, Path]], ticks: int, chunk: int) -> None:
+@pytest.mark.parametrize(
+    ("ticks", "chunk"),
+    [(500, 7), (BLOCK_TICKS, 512), (LONG, 512), (LONG, 16384), (2 * BLOCK_TICKS, 100)],
+)
+def test_run_and_review_agree_to_the_last_bit(
+    long_log: Callable[[int], tuple[Scenario, Path]], ticks: int, chunk: int
+) -> None:
     scenario, log = long_log(ticks)
-    found, reviewed = evaluated(numbers(read_log(log)), scenario, chunk).evaluation(), review_log(log)
+    found, reviewed = (
+        evaluated(numbers(read_log(log)), scenario, chunk).evaluation(),
+        review_log(log),
+    )
     assert found == evaluate_log(log, scenario.platform)
     assert found.metrics["ticks"] == ticks
     assert reviewed.metrics == found.metrics
     assert len(reviewed.metrics) > 110
 
 
-def test_the_figures_in_blocks_are_those_of_the_whole(long_log: Callable[[int], tuple[Scenario, Path]]) -> None:
+def test_the_figures_in_blocks_are_those_of_the_whole(
+    long_log: Callable[[int], tuple[Scenario, Path]],
+) -> None:
     """And all of them are there."""
     scenario, log = long_log(LONG)
     platform, geometry = scenario.platform, scenario.platform.geometry()
     found, flight = evaluate_log(log, platform), RunColumns.of(read_log(log))
-    expected = metrics(flight) | consistency(flight, geometry.wheels_from_sphere, geometry.sphere_from_wheels)
+    expected = metrics(flight) | consistency(
+        flight, geometry.wheels_from_sphere, geometry.sphere_from_wheels
+    )
     assert found.metrics == expected
     assert list(found.metrics) == list(expected)
-    assert found.limit_use == limit_use(flight, platform.wheel_limit_values(), platform.stage_limit_values())
+    assert found.limit_use == limit_use(
+        flight, platform.wheel_limit_values(), platform.stage_limit_values()
+    )
 
 
 def test_a_live_log_is_judged_where_it_was_running(load: Load, tmp_path: Path) -> None:
     """Its limits everywhere: the wheels turn fastest while it is parked."""
     scenario, ticks = load("cueing.method=attitude"), 2 * BLOCK_TICKS
-    time, names = np.arange(ticks) / 1000.0, [(topic.name, field) for topic in LIVE_TOPICS[:-1] for field in topic.fields]
+    time, names = (
+        np.arange(ticks) / 1000.0,
+        [(topic.name, field) for topic in LIVE_TOPICS[:-1] for field in topic.fields],
+    )
     rows = np.zeros((ticks, len(names)))
     for k, (topic, field) in enumerate(names):
         if field in ("time_s", "elapsed_s"):
@@ -124,7 +154,11 @@ def test_a_live_log_is_judged_where_it_was_running(load: Load, tmp_path: Path) -
             rows[:, k] = np.where(time < 3.0, 7.0, 0.5)
     log = tmp_path / "live.mcap"
     recorder = McapRecorder(
-        log, head_S=(0.0, 0.0, 0.0), metadata={}, attachments=scenario.attachments(), started_ns=1_700_000_000 * 10**9
+        log,
+        head_S=(0.0, 0.0, 0.0),
+        metadata={},
+        attachments=scenario.attachments(),
+        started_ns=1_700_000_000 * 10**9,
     )
     for at, state in ((0.0, "parked"), (4.0, "running"), (12.0, "parking")):
         recorder.status(at, state, "")
@@ -133,11 +167,16 @@ def test_a_live_log_is_judged_where_it_was_running(load: Load, tmp_path: Path) -
     found = evaluate_log(log, scenario.platform)
     assert (found.metrics["ticks"], found.metrics["wheel_speed_max_rad_s"]) == (8000.0, 0.5)
     assert found.metrics["wheel_speed_mismatch_max_rad_s"] == 7.0
-    assert found.limit_use["wheel_speed_logged"] == 7.0 / scenario.platform.wheel_limit_values().speed[0]
+    assert (
+        found.limit_use["wheel_speed_logged"]
+        == 7.0 / scenario.platform.wheel_limit_values().speed[0]
+    )
     assert review_log(log).metrics == found.metrics
 
 
-def test_a_log_that_breaks_off_has_no_figures(long_log: Callable[[int], tuple[Scenario, Path]]) -> None:
+def test_a_log_that_breaks_off_has_no_figures(
+    long_log: Callable[[int], tuple[Scenario, Path]],
+) -> None:
     scenario, log = long_log(500)
     log.write_bytes(log.read_bytes()[:-100])
     evaluation = evaluate_log(log, scenario.platform)
@@ -154,13 +193,20 @@ def test_a_log_without_ticks(load: Load, tmp_path: Path) -> None:
 
 def test_a_log_without_a_topic_is_told(load: Load, tmp_path: Path) -> None:
     log = tmp_path / "log.mcap"
-    McapRecorder(log, head_S=(0.0, 0.0, 0.0), metadata={}, attachments={}, skip_topics=("/felt",)).close("ok", "")
+    McapRecorder(
+        log, head_S=(0.0, 0.0, 0.0), metadata={}, attachments={}, skip_topics=("/felt",)
+    ).close("ok", "")
     found = evaluate_log(log, load().platform)
     assert found.metrics == {}
-    assert "the log has no topic '/felt'; topics: /vehicle, /cue, /motion, /wheels" in found.violations[0]
+    assert (
+        "the log has no topic '/felt'; topics: /vehicle, /cue, /motion, /wheels"
+        in found.violations[0]
+    )
 
 
-def test_memory_grows_by_the_quantiles_only(long_log: Callable[[int], tuple[Scenario, Path]]) -> None:
+def test_memory_grows_by_the_quantiles_only(
+    long_log: Callable[[int], tuple[Scenario, Path]],
+) -> None:
     """33 bytes a tick, not the 560 of its columns."""
     peaks = {}
     for ticks in (3 * BLOCK_TICKS, 6 * BLOCK_TICKS):

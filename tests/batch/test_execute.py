@@ -23,7 +23,10 @@ def test_log_and_figures_are_those_of_a_plain_run(tmp_path: Path) -> None:
     record = fly_alone(order(run, out), out)
     plain = run_scenario(run.scenario, tmp_path / "plain.mcap")
     assert (record.result, record.log, record.ticks) == ("ok", f"{run.id}.mcap", plain.ticks)
-    assert (record.metrics, record.limit_use) == (plain.evaluation.metrics, plain.evaluation.limit_use)
+    assert (record.metrics, record.limit_use) == (
+        plain.evaluation.metrics,
+        plain.evaluation.limit_use,
+    )
     assert (out / record.log).read_bytes() == plain.log.read_bytes()
     assert [path.name for path in out.iterdir()] == [record.log]
 
@@ -67,7 +70,9 @@ def test_what_else_may_happen(
     assert record.final == (result in ("out_of_memory", "failed"))
 
 
-def test_a_worker_of_other_versions_does_not_fly(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_worker_of_other_versions_does_not_fly(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     sent = order(planned(tmp_path)[0], tmp_path)
     monkeypatch.setattr("atlas_cueing.batch.run_id._version", lambda _: b"another")
     record = fly_alone(sent, tmp_path)
@@ -82,7 +87,10 @@ def test_a_folder_that_is_gone(tmp_path: Path) -> None:
 
 
 def test_a_scenario_that_the_worker_cannot_read_is_a_failure_of_that_run(tmp_path: Path) -> None:
-    assert fly_alone(Job("r", str(tmp_path), {"scenario.toml": "["}, RunLimits()), tmp_path).result == "vehicle_failed"
+    assert (
+        fly_alone(Job("r", str(tmp_path), {"scenario.toml": "["}, RunLimits()), tmp_path).result
+        == "vehicle_failed"
+    )
 
 
 def test_a_log_that_was_left_is_named(tmp_path: Path) -> None:
@@ -100,5 +108,7 @@ def test_a_confined_process_is_refused_memory() -> None:
         "try: bytearray(2 * 10**9)\n"
         "except MemoryError: print('refused')\n"
     )
-    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True).stdout
+    told = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True
+    ).stdout
     assert told == "refused\n"

@@ -17,14 +17,19 @@ from .sweeping import LIMITS, fly_in_line, planned
 
 
 def hashes(folder: Path) -> dict[str, str]:
-    return {path.name: sha256(path.read_bytes()).hexdigest() for path in sorted(folder.glob("*.mcap"))}
+    return {
+        path.name: sha256(path.read_bytes()).hexdigest() for path in sorted(folder.glob("*.mcap"))
+    }
 
 
 def test_one_worker_or_two_give_the_same_bytes(tmp_path: Path) -> None:
     runs = planned(tmp_path)
     for jobs in (1, 2):
         outcomes = fly_batch(
-            runs, FolderStore(tmp_path / str(jobs)), lambda orders, stop, n=jobs: fly_here(orders, n, stop), LIMITS
+            runs,
+            FolderStore(tmp_path / str(jobs)),
+            lambda orders, stop, n=jobs: fly_here(orders, n, stop),
+            LIMITS,
         )
         assert [outcome.run for outcome in outcomes] == runs
         assert all(outcome.record and outcome.record.clean for outcome in outcomes)
@@ -37,8 +42,12 @@ def test_a_second_time_flies_only_what_is_missing(tmp_path: Path) -> None:
     results = FolderStore(out)
     flown: list[str] = []
     runs = planned(tmp_path)
-    first = fly_batch(runs[:2], results, fly_in_line, LIMITS, tell=lambda record: flown.append(record.id))
-    again = fly_batch(runs, results, fly_in_line, LIMITS, tell=lambda record: flown.append(record.id))
+    first = fly_batch(
+        runs[:2], results, fly_in_line, LIMITS, tell=lambda record: flown.append(record.id)
+    )
+    again = fly_batch(
+        runs, results, fly_in_line, LIMITS, tell=lambda record: flown.append(record.id)
+    )
     assert sorted(flown) == sorted(run.id for run in runs)
     assert [outcome.record for outcome in again[:2]] == [outcome.record for outcome in first]
     (out / f"{runs[1].id}.mcap").unlink()
@@ -54,9 +63,12 @@ def test_the_longest_begins_first(tmp_path: Path) -> None:
     assert [run.duration for run in missing(runs, FolderStore(tmp_path))] == [0.3, 0.2, 0.1]
 
 
-@pytest.mark.parametrize(("result", "todo"), [("crashed", 1), ("timed_out", 1), ("out_of_memory", 1), ("vehicle_failed", 0)])
+@pytest.mark.parametrize(
+    ("result", "todo"),
+    [("crashed", 1), ("timed_out", 1), ("out_of_memory", 1), ("vehicle_failed", 0)],
+)
 def test_retry_is_for_what_had_to_be_killed(tmp_path: Path, result: str, todo: int) -> None:
-    (run, *_) = planned(tmp_path)
+    run, *_ = planned(tmp_path)
     keep(JobResult(run.id, result), tmp_path)
     assert missing([run], FolderStore(tmp_path)) == []
     assert len(missing([run], FolderStore(tmp_path), retry=True)) == todo
@@ -66,15 +78,22 @@ def test_what_was_not_flown_is_none(tmp_path: Path) -> None:
     runs = planned(tmp_path)
     told: list[JobResult] = []
     outcomes = fly_batch(
-        runs, FolderStore(tmp_path / "out"), fly_in_line, LIMITS, tell=told.append, stop=lambda: len(told) == 3
+        runs,
+        FolderStore(tmp_path / "out"),
+        fly_in_line,
+        LIMITS,
+        tell=told.append,
+        stop=lambda: len(told) == 3,
     )
     assert [outcome.record is not None for outcome in outcomes] == [True, True, True, False]
 
 
 def test_a_run_to_be_retried_and_not_flown_is_not_reported_as_it_was(tmp_path: Path) -> None:
-    (run, *_) = planned(tmp_path)
+    run, *_ = planned(tmp_path)
     keep(JobResult(run.id, "crashed"), tmp_path)
-    (outcome,) = fly_batch([run], FolderStore(tmp_path), fly_in_line, LIMITS, retry=True, stop=lambda: True)
+    (outcome,) = fly_batch(
+        [run], FolderStore(tmp_path), fly_in_line, LIMITS, retry=True, stop=lambda: True
+    )
     assert outcome.record is None
 
 

@@ -17,7 +17,11 @@ def test_a_folder_is_made_when_needed(tmp_path: Path) -> None:
 
 def test_one_batch_at_a_time(tmp_path: Path) -> None:
     results = FolderStore(tmp_path)
-    with results.opened(), pytest.raises(OutputError, match="another batch is at work"), results.opened():
+    with (
+        results.opened(),
+        pytest.raises(OutputError, match="another batch is at work"),
+        results.opened(),
+    ):
         pytest.fail("two batches in one folder")
     with results.opened():
         pass
@@ -35,7 +39,9 @@ def test_what_can_never_be_a_folder_of_results(tmp_path: Path) -> None:
         FolderStore(tmp_path / ("x" * 300)).check()
 
 
-def test_a_folder_that_cannot_be_written_to(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_folder_that_cannot_be_written_to(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("os.access", lambda _path, _mode: False)
     with pytest.raises(OutputError, match="cannot be written to"):
         FolderStore(tmp_path).check()
@@ -58,7 +64,9 @@ def test_runs_write_into_the_folder_itself(tmp_path: Path) -> None:
     assert results.fetch("a", tmp_path / "scratch") == tmp_path / "new" / "a"
 
 
-def test_workers_are_told_an_absolute_path_and_people_their_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_workers_are_told_an_absolute_path_and_people_their_own(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
     results = FolderStore(Path("new"))
     assert (results.place, results.title) == (str(tmp_path / "new"), "new")

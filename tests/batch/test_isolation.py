@@ -28,7 +28,10 @@ def said(code: str) -> str:
 
 def ended(work: str, limit: float = 60.0) -> str:
     """Told, status, printed and late, of a child that does `work`."""
-    return said(f"def work():\n    {work}\nend = in_child(work, {limit})\nprint(end.told, end.status, end.printed, end.late)")
+    return said(
+        f"def work():\n    {work}\nend = in_child(work, {limit})\nprint(end.told, end.status,"
+        " end.printed, end.late)"
+    )
 
 
 def test_what_it_tells_comes_whole() -> None:
@@ -44,7 +47,10 @@ def test_however_it_ends_it_is_told_in_words() -> None:
     assert ended("os.write(2, b'oh'); os.abort()") == "b'' -6 oh False\n"
     assert ended("raise ZeroDivisionError('no')") == "b'' 1 ZeroDivisionError: no False\n"
     assert said("print(in_child(lambda: os._exit(3), 60.0).how())") == "ended with exit status 3\n"
-    assert said("print(in_child(lambda: (os.write(2, b'oh'), os.abort()), 60.0).how())") == "ended by SIGABRT: oh\n"
+    assert (
+        said("print(in_child(lambda: (os.write(2, b'oh'), os.abort()), 60.0).how())")
+        == "ended by SIGABRT: oh\n"
+    )
 
 
 def test_who_takes_too_long_is_killed() -> None:
@@ -52,12 +58,15 @@ def test_who_takes_too_long_is_killed() -> None:
 
 
 def test_when_nobody_waits_for_it_any_more_it_is_killed() -> None:
-    code = "out = os.dup(1)\nwork = lambda: (os.write(out, b'%d\\n' % os.getpid()), time.sleep(600))\n"
+    code = (
+        "out = os.dup(1)\nwork = lambda: (os.write(out, b'%d\\n' % os.getpid()), time.sleep(600))\n"
+    )
     process = parent(f"{code}try: in_child(work, 600.0)\nexcept EOFError as error: print(error)")
     assert process.stdin
     assert process.stdout
     child = int(process.stdout.readline())
-    assert process.communicate(timeout=60) == ("nobody waits for the child any more\n", "")  # closes stdin
+    # closes stdin
+    assert process.communicate(timeout=60) == ("nobody waits for the child any more\n", "")
     with pytest.raises(ProcessLookupError):
         os.kill(child, 0)
 

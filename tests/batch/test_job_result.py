@@ -9,7 +9,18 @@ from atlas_cueing.batch.job_result import FINAL, JobResult, keep, kept
 
 from .sweeping import kept_in
 
-RECORD = JobResult("r", "ok", "", "r.mcap", 12, 0.1, 0.5, ("wheel_speed = 2",), {"force_rms_m_s2": 1 / 3}, {"wheel_speed": 2.0})
+RECORD = JobResult(
+    "r",
+    "ok",
+    "",
+    "r.mcap",
+    12,
+    0.1,
+    0.5,
+    ("wheel_speed = 2",),
+    {"force_rms_m_s2": 1 / 3},
+    {"wheel_speed": 2.0},
+)
 
 
 def test_what_is_kept_comes_back(tmp_path: Path) -> None:
@@ -18,7 +29,11 @@ def test_what_is_kept_comes_back(tmp_path: Path) -> None:
     assert kept_in(tmp_path, "r") == RECORD
     assert {path.name for path in tmp_path.iterdir()} == {"r.json", "r.mcap"}
     table = json.loads((tmp_path / "r.json").read_text())
-    assert (table["duration_s"], table["wall_s"], table["metrics"]) == (0.1, 0.5, {"force_rms_m_s2": 1 / 3})
+    assert (table["duration_s"], table["wall_s"], table["metrics"]) == (
+        0.1,
+        0.5,
+        {"force_rms_m_s2": 1 / 3},
+    )
 
 
 def test_figures_that_are_no_numbers_are_null(tmp_path: Path) -> None:
@@ -29,7 +44,11 @@ def test_figures_that_are_no_numbers_are_null(tmp_path: Path) -> None:
     assert all(isnan(value) for value in back.metrics.values())
 
 
-@pytest.mark.parametrize("content", [b"", b"{", b"[]", b"3", b'{"id": "r"}', b"\xff", b"null", b"[" * 200_000], ids=range(8))
+@pytest.mark.parametrize(
+    "content",
+    [b"", b"{", b"[]", b"3", b'{"id": "r"}', b"\xff", b"null", b"[" * 200_000],
+    ids=range(8),
+)
 def test_a_damaged_record_is_none(tmp_path: Path, content: bytes) -> None:
     """A power cut may leave an empty file: that run is flown again."""
     (tmp_path / "r.json").write_bytes(content)

@@ -12,13 +12,25 @@ from atlas_cueing.batch.overview import overview
 
 METRIC, ANGLE = "force_rms_m_s2", "direction_rms_rad"
 SAME = {"scenario": "short", "vehicle": "c1722", "method": "blend", "platform": "atlas-2.9m"}
-ROW = {**SAME, "run": "short-c1722-blend-0123456789ab", "result": "ok", "log": "a.mcap", METRIC: 1.25, ANGLE: 0.5}
+ROW = {
+    **SAME,
+    "run": "short-c1722-blend-0123456789ab",
+    "result": "ok",
+    "log": "a.mcap",
+    METRIC: 1.25,
+    ANGLE: 0.5,
+}
 FAILED = {**SAME, "run": "b-2", "log": "", "result": "vehicle_failed", "reason": "it <fell>"}
 
 Row = Mapping[str, object]
 
 
-def page(*rows: Row, settings: tuple[str, ...] = (), files: tuple[str, ...] = (), metrics: tuple[str, ...] = (METRIC,)) -> str:
+def page(
+    *rows: Row,
+    settings: tuple[str, ...] = (),
+    files: tuple[str, ...] = (),
+    metrics: tuple[str, ...] = (METRIC,),
+) -> str:
     return overview(rows, settings, metrics, "mine & yours", files)
 
 
@@ -26,8 +38,15 @@ def tables(text: str) -> list[tuple[list[str], list[list[str]]]]:
     """Heads and rows of each table, as read by eye."""
     found = []
     for table in re.findall(r"<table.*?</table>", text, re.DOTALL):
-        heads, *rows = [re.findall(r"<t[hd].*?</t[hd]>", row) for row in re.findall(r"<tr.*?</tr>", table)]
-        found.append((["".join(read(cell)) for cell in heads], [["".join(read(cell)) for cell in row] for row in rows]))
+        heads, *rows = [
+            re.findall(r"<t[hd].*?</t[hd]>", row) for row in re.findall(r"<tr.*?</tr>", table)
+        ]
+        found.append(
+            (
+                ["".join(read(cell)) for cell in heads],
+                [["".join(read(cell)) for cell in row] for row in rows],
+            )
+        )
     return found
 
 
@@ -36,12 +55,19 @@ def read(cell: str) -> str:
 
 
 def totals(text: str) -> dict[str, str]:
-    return {name: value for value, name in re.findall(r"<div[^>]*><b>(.*?)</b><span>(.*?)</span></div>", text)}
+    return {
+        name: value
+        for value, name in re.findall(r"<div[^>]*><b>(.*?)</b><span>(.*?)</span></div>", text)
+    }
 
 
 def test_every_run_has_a_row_with_links_to_what_there_is() -> None:
     name = ROW["run"]
-    text = page({**ROW, "log": f"{name}.mcap"}, FAILED, files=(f"{name}.json", f"{name}.html", f"{name}.mcap", "index.html"))
+    text = page(
+        {**ROW, "log": f"{name}.mcap"},
+        FAILED,
+        files=(f"{name}.json", f"{name}.html", f"{name}.mcap", "index.html"),
+    )
     good, bad = re.findall(r"<tr.*?</tr>", text)[1::2]
     assert re.findall(r'href="([^"]*)"', good) == [f"{name}.html", f"{name}.mcap", f"{name}.json"]
     assert re.findall(r'href="([^"]*)"', bad) == []
@@ -52,17 +78,25 @@ def test_every_run_has_a_row_with_links_to_what_there_is() -> None:
 
 def test_a_run_is_called_by_scenario_and_method() -> None:
     text = page(ROW)
-    (_, ((name, *_),)) = tables(text)[0]
+    _, ((name, *_),) = tables(text)[0]
     assert name == "short · blend 0123456789ab"
     assert f'title="{ROW["run"]}"' in text
 
 
 def test_figures_are_in_units_for_people_and_heads_tell_their_names() -> None:
-    text = page({**ROW, "wheels_limited_share": 0.123, "rate_rms_rad_s": 0.1}, metrics=(METRIC, ANGLE, "wheels_limited_share"))
+    text = page(
+        {**ROW, "wheels_limited_share": 0.123, "rate_rms_rad_s": 0.1},
+        metrics=(METRIC, ANGLE, "wheels_limited_share"),
+    )
     ((heads, rows),) = tables(text)
     assert heads == ["run", "force rms m/s²", "direction rms deg", "wheels limited %", "links"]
     assert rows[0][1:4] == ["1.250", "28.65", "12.3"]
-    assert re.findall(r'<th class="\w*" title="(\w+)"', text) == ["run", METRIC, ANGLE, "wheels_limited_share"]
+    assert re.findall(r'<th class="\w*" title="(\w+)"', text) == [
+        "run",
+        METRIC,
+        ANGLE,
+        "wheels_limited_share",
+    ]
     assert 'data-v="0.5"' in text  # sorted by the number itself
     assert f'title="{METRIC}" aria-sort=ascending' in text
 
@@ -86,9 +120,18 @@ def test_what_failed_stands_apart_with_its_reasons() -> None:
 
 
 def test_totals_stand_on_top() -> None:
-    flown = [{**ROW, "duration_s": 4000.0, "violations": 2}, {**ROW, "duration_s": 500.0, "violations": 0}]
+    flown = [
+        {**ROW, "duration_s": 4000.0, "violations": 2},
+        {**ROW, "duration_s": 500.0, "violations": 0},
+    ]
     text = page(*flown, FAILED)
-    assert totals(text) == {"runs": "3", "ok": "2", "failed": "1", "violations": "2", "of flight": "1.2 h"}
+    assert totals(text) == {
+        "runs": "3",
+        "ok": "2",
+        "failed": "1",
+        "violations": "2",
+        "of flight": "1.2 h",
+    }
     assert totals(page({**FAILED, "result": "not_flown"}))["not flown"] == "1"
     assert text.index("totals") < text.index("<table>")
 
@@ -101,14 +144,21 @@ def test_a_violation_is_marked() -> None:
 
 
 def test_a_length_has_a_column_where_one_can_see_that_it_differs() -> None:
-    heads = [tables(page(*({**ROW, "duration_s": d} for d in pair)))[0][0] for pair in ((5.0, 5.001), (5.0, 5.01))]
+    heads = [
+        tables(page(*({**ROW, "duration_s": d} for d in pair)))[0][0]
+        for pair in ((5.0, 5.001), (5.0, 5.01))
+    ]
     assert ["duration s" in head for head in heads] == [False, True]
-    assert tables(page({**ROW, "violations": 2}, metrics=("violations",)))[0][0].count("violations") == 1
+    assert (
+        tables(page({**ROW, "violations": 2}, metrics=("violations",)))[0][0].count("violations")
+        == 1
+    )
 
 
 def test_only_what_differs_has_a_column() -> None:
     rows = [
-        {**ROW, "vehicle": v, "vehicle.script": v, "cueing.force_gain": g, "cueing.x_m": 3} for v, g in (("a", 1), ("b", 2))
+        {**ROW, "vehicle": v, "vehicle.script": v, "cueing.force_gain": g, "cueing.x_m": 3}
+        for v, g in (("a", 1), ("b", 2))
     ]
     text = page(*rows, settings=("vehicle.script", "cueing.force_gain", "cueing.x_m"))
     ((heads, found),) = tables(text)
@@ -119,13 +169,21 @@ def test_only_what_differs_has_a_column() -> None:
 
 
 def test_a_swept_method_has_a_column_and_keys_of_one_name_are_told_in_full() -> None:
-    rows = [{**ROW, "method": m, "cueing.method": m, "a.gain_s": i, "b.gain_s": -i} for i, m in enumerate(("blend", "force"))]
+    rows = [
+        {**ROW, "method": m, "cueing.method": m, "a.gain_s": i, "b.gain_s": -i}
+        for i, m in enumerate(("blend", "force"))
+    ]
     heads = tables(page(*rows, settings=("cueing.method", "a.gain_s", "b.gain_s")))[0][0]
     assert heads[1:4] == ["method", "a.gain_s s", "b.gain_s s"]
 
 
 def test_the_least_is_told_from_the_rest_and_no_number_is_a_dash() -> None:
-    text = page({**ROW, METRIC: 2.0}, {**ROW, METRIC: 1.0}, {**ROW, METRIC: nan}, {**SAME, "run": "n", "result": "ok"})
+    text = page(
+        {**ROW, METRIC: 2.0},
+        {**ROW, METRIC: 1.0},
+        {**ROW, METRIC: nan},
+        {**SAME, "run": "n", "result": "ok"},
+    )
     cells = re.findall(r'<td class="(figure[^"]*)" data-v="([^"]*)"(.*?)>(.*?)</td>', text)
     assert [(kind, value, shown) for kind, value, _, shown in cells] == [
         ("figure", "2.0", "2.000"),
@@ -133,14 +191,19 @@ def test_the_least_is_told_from_the_rest_and_no_number_is_a_dash() -> None:
         ("figure", "", "–"),
         ("figure", "", ""),
     ]
-    assert [style for _, _, style, _ in cells[:2]] == [' style="--part:100%"', ' style="--part:50%"']
+    assert [style for _, _, style, _ in cells[:2]] == [
+        ' style="--part:100%"',
+        ' style="--part:50%"',
+    ]
 
 
 def test_a_picture_for_two_parameters_only() -> None:
     rows = [{**ROW, "g": g, "h": h} for g in (1, 2) for h in (3, 4)]
     assert page(*rows, settings=("g", "h")).count("<rect") == 4
     assert "<svg" not in page(*rows[:2], settings=("g", "h"))
-    assert "<svg" not in page(*[{**row, "i": i} for i, row in enumerate(rows)], settings=("g", "h", "i"))
+    assert "<svg" not in page(
+        *[{**row, "i": i} for i, row in enumerate(rows)], settings=("g", "h", "i")
+    )
 
 
 def test_names_stand_beside_the_picture() -> None:
@@ -159,9 +222,24 @@ def test_nothing_comes_from_elsewhere() -> None:
 
 def test_everything_is_escaped() -> None:
     bad = '<b>"&'
-    names = ("run", "scenario", "vehicle", "method", "platform", "reason", "result", "log", f"k.{bad}")
+    names = (
+        "run",
+        "scenario",
+        "vehicle",
+        "method",
+        "platform",
+        "reason",
+        "result",
+        "log",
+        f"k.{bad}",
+    )
     rows = [{**dict.fromkeys(names, bad + str(i)), METRIC: 1.0} for i in (1, 2)]
-    text = page(*rows, *[{**row, "result": "ok"} for row in rows], settings=(f"k.{bad}", "platform"), files=(f"{bad}1.html",))
+    text = page(
+        *rows,
+        *[{**row, "result": "ok"} for row in rows],
+        settings=(f"k.{bad}", "platform"),
+        files=(f"{bad}1.html",),
+    )
     assert "<b>" not in re.sub(r"<div[^>]*><b>", "", text)
     assert bad not in text
     assert "&lt;b&gt;&quot;&amp;1" in text
@@ -169,10 +247,20 @@ def test_everything_is_escaped() -> None:
 
 @needs_browser
 def test_it_fits_the_window_and_a_click_sorts(tmp_path: Path) -> None:
-    """Also with six swept parameters and long names; what is empty stays last, and the other table is left alone."""
+    """Also with six swept parameters and long names.
+
+    What is empty stays last, and the other table is left alone.
+    """
     long = "a_rather_long_name_of_a_script_that_somebody_chose"
     keys = tuple(f"cueing.some_longer_parameter_{i}_deg_s" for i in range(6))
-    metrics = (METRIC, ANGLE, "rate_rms_rad_s", "wheels_limited_share", "stage_limited_share", "attitude_rms_rad")
+    metrics = (
+        METRIC,
+        ANGLE,
+        "rate_rms_rad_s",
+        "wheels_limited_share",
+        "stage_limited_share",
+        "attitude_rms_rad",
+    )
     rows: list[Row] = [
         {
             **ROW,
@@ -189,14 +277,35 @@ def test_it_fits_the_window_and_a_click_sorts(tmp_path: Path) -> None:
         opened = Opened(browser, (tmp_path / "page.html").as_uri())
         opened.page.set_viewport_size({"width": 1200, "height": 500})
         assert opened.page.evaluate("document.documentElement.scrollWidth") <= 1200
-        column = f"[...document.querySelectorAll('table')[0].tBodies[0].rows].map(r => r.cells[{2 + len(keys)}].dataset.v)"
+        column = (
+            "[...document.querySelectorAll('table')[0].tBodies[0].rows].map(r =>"
+            f" r.cells[{2 + len(keys)}].dataset.v)"
+        )
         head = opened.page.locator(f"th[title={METRIC}]")
         assert head.get_attribute("aria-sort") == "ascending"
         head.click()
-        assert opened.page.evaluate(column) == ["103.0", "100.125", "13.0", "10.125", "5.5", "2.625", ""]
+        assert opened.page.evaluate(column) == [
+            "103.0",
+            "100.125",
+            "13.0",
+            "10.125",
+            "5.5",
+            "2.625",
+            "",
+        ]
         head.press("Enter")
-        assert opened.page.evaluate(column) == ["2.625", "5.5", "10.125", "13.0", "100.125", "103.0", ""]
+        assert opened.page.evaluate(column) == [
+            "2.625",
+            "5.5",
+            "10.125",
+            "13.0",
+            "100.125",
+            "103.0",
+            "",
+        ]
         opened.page.evaluate("window.scrollTo(0, 300)")
-        assert opened.page.evaluate("document.querySelector('th').getBoundingClientRect().top") == pytest.approx(0.0, abs=1.0)
+        assert opened.page.evaluate(
+            "document.querySelector('th').getBoundingClientRect().top"
+        ) == pytest.approx(0.0, abs=1.0)
         assert opened.page.locator("td.reason").inner_text() == long * 9
         opened.check_alone()

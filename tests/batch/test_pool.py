@@ -9,7 +9,9 @@ from atlas_cueing.batch.pool import Worker, fly_here
 from .sweeping import order, planned, sabotage
 
 
-def test_all_orders_are_flown_by_as_many_workers_as_asked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_all_orders_are_flown_by_as_many_workers_as_asked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     started = []
 
     class Counted(Worker):
@@ -27,8 +29,13 @@ def test_all_orders_are_flown_by_as_many_workers_as_asked(tmp_path: Path, monkey
     assert len(started) == 2
 
 
-def test_a_run_that_loses_its_worker_is_begun_again_and_then_given_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    sabotage(monkeypatch, "Path(order.place, 'tries').open('a').write('x'); os.kill(os.getppid(), signal.SIGKILL)")
+def test_a_run_that_loses_its_worker_is_begun_again_and_then_given_up(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sabotage(
+        monkeypatch,
+        "Path(order.place, 'tries').open('a').write('x'); os.kill(os.getppid(), signal.SIGKILL)",
+    )
     records = list(fly_here([order(run, tmp_path) for run in planned(tmp_path)], 2))
     results = {record.id.split("-")[2]: record.result for record in records}
     assert results == {"blend": "ok", "attitude": "worker_lost", "force": "ok", "classical": "ok"}
@@ -36,8 +43,13 @@ def test_a_run_that_loses_its_worker_is_begun_again_and_then_given_up(tmp_path: 
     assert not next(record for record in records if record.result == "worker_lost").final
 
 
-def test_a_worker_lost_by_accident_costs_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    once = "Path(order.place, 'once').exists() or (Path(order.place, 'once').touch(), os.kill(os.getppid(), signal.SIGKILL))"
+def test_a_worker_lost_by_accident_costs_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    once = (
+        "Path(order.place, 'once').exists() or (Path(order.place, 'once').touch(),"
+        " os.kill(os.getppid(), signal.SIGKILL))"
+    )
     sabotage(monkeypatch, once)
     records = list(fly_here([order(run, tmp_path) for run in planned(tmp_path)], 1))
     assert [record.result for record in records] == ["ok"] * 4
@@ -47,7 +59,9 @@ def test_a_worker_lost_by_accident_costs_nothing(tmp_path: Path, monkeypatch: py
 def test_stopping_kills_the_run_under_way(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     sabotage(monkeypatch, "Path(order.place, 'begun').touch(); time.sleep(600)")
     runs = planned(tmp_path, 'sweep.cueing.method=["attitude"]')
-    assert list(fly_here([order(run, tmp_path) for run in runs], 1, (tmp_path / "begun").exists)) == []
+    assert (
+        list(fly_here([order(run, tmp_path) for run in runs], 1, (tmp_path / "begun").exists)) == []
+    )
     assert (tmp_path / "begun").exists()
 
 
@@ -62,7 +76,9 @@ COUNT = "open('{}', 'a').write('x'); time.sleep(0.5)"
 
 
 @pytest.mark.parametrize("kind", ["", "file://"])
-def test_a_run_that_is_ordered_twice_is_flown_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str) -> None:
+def test_a_run_that_is_ordered_twice_is_flown_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str
+) -> None:
     """As a cluster does that lost the word of it."""
     sabotage(monkeypatch, COUNT.format(tmp_path / "flights"))
     (run,) = planned(tmp_path, 'sweep.cueing.method=["attitude"]')
@@ -78,7 +94,10 @@ def test_a_run_that_is_ordered_twice_is_flown_once(tmp_path: Path, monkeypatch: 
 
 
 def test_two_workers_at_the_same_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """As when a driver is gone and the next one finds its runs still under way: the second waits, and has no need to fly."""
+    """As when a driver is gone and the next one finds its runs still under way.
+
+    The second waits, and has no need to fly.
+    """
     sabotage(monkeypatch, COUNT.format(tmp_path / "flights"))
     (run,) = planned(tmp_path, 'sweep.cueing.method=["attitude"]')
     (tmp_path / "out").mkdir()

@@ -69,11 +69,16 @@ def deaf(results: RemoteStore) -> RemoteStore:
 
 
 def test_a_place_that_takes_no_files_is_found_out_when_it_is_opened(results: RemoteStore) -> None:
-    with pytest.raises(OutputError, match=r"memory://results: PermissionError: denied"), deaf(results).opened():
+    with (
+        pytest.raises(OutputError, match=r"memory://results: PermissionError: denied"),
+        deaf(results).opened(),
+    ):
         pytest.fail("it can be written to")
 
 
-def test_what_breaks_off_is_never_taken_for_a_finished_log(results: RemoteStore, tmp_path: Path) -> None:
+def test_what_breaks_off_is_never_taken_for_a_finished_log(
+    results: RemoteStore, tmp_path: Path
+) -> None:
     (tmp_path / "r.mcap").write_bytes(b"log")
     keep(JobResult("r", "ok", log="r.mcap"), tmp_path)
     told = deaf(results)._upload(tmp_path, ["r.mcap", "r.json"])
@@ -97,7 +102,9 @@ def test_while_it_is_uploaded_it_has_another_name(
     assert results.read(results.names()) == {"r.mcap": b"log"}
 
 
-def test_a_record_there_without_its_log_is_flown_again(results: RemoteStore, tmp_path: Path) -> None:
+def test_a_record_there_without_its_log_is_flown_again(
+    results: RemoteStore, tmp_path: Path
+) -> None:
     record = JobResult("r", "ok", log="r.mcap")
     keep(record, tmp_path)
     results.write("r.json", (tmp_path / "r.json").read_bytes())
@@ -106,7 +113,9 @@ def test_a_record_there_without_its_log_is_flown_again(results: RemoteStore, tmp
     assert kept(["r", "s"], results) == {"r": record}
 
 
-def test_the_record_is_uploaded_last(results: RemoteStore, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_record_is_uploaded_last(
+    results: RemoteStore, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     uploaded: list[str] = []
     monkeypatch.setattr(results, "deliver", lambda _, names: uploaded.extend(names))
     _deliver(JobResult("r", "ok", log="r.mcap"), tmp_path, results)
@@ -122,7 +131,9 @@ def test_the_record_is_uploaded_last(results: RemoteStore, tmp_path: Path, monke
         (ChildExit(b"s3://a: denied", 0, "", late=False), "s3://a: denied"),
     ],
 )
-def test_an_upload_that_fails_says_how(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ended: ChildExit, message: str) -> None:
+def test_an_upload_that_fails_says_how(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ended: ChildExit, message: str
+) -> None:
     monkeypatch.setattr(remote, "in_child", lambda _work, _limit: ended)
     with pytest.raises(OutputError, match=message):
         RemoteStore(WHERE).deliver(tmp_path, ["r.mcap"])
@@ -191,24 +202,35 @@ def test_without_fsspec_or_its_driver(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(InputError, match=r"-o s3://bucket/a: its driver is missing: Install s3fs"):
         RemoteStore("s3://bucket/a").check()
     monkeypatch.setitem(sys.modules, "fsspec.core", None)
-    with pytest.raises(InputError, match=r"-o s3://bucket/a: a URL needs fsspec; .* install 'atlas_cueing\[cluster\]'"):
+    with pytest.raises(
+        InputError,
+        match=r"-o s3://bucket/a: a URL needs fsspec; .* install 'atlas_cueing\[cluster\]'",
+    ):
         RemoteStore("s3://bucket/a").check()
 
 
 def test_a_password_is_for_the_driver_only() -> None:
     results = RemoteStore("ftp://me:secret@host/folder/")
     assert results.place == "ftp://me:secret@host/folder"
-    assert (results.where(), results.where("a"), results.title) == ("ftp://host/folder", "ftp://host/folder/a", "folder")
+    assert (results.where(), results.where("a"), results.title) == (
+        "ftp://host/folder",
+        "ftp://host/folder/a",
+        "folder",
+    )
 
 
-def test_workers_upload_the_same_bytes_and_leave_nothing_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_workers_upload_the_same_bytes_and_leave_nothing_behind(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     (tmp_path / "scratch").mkdir()
     monkeypatch.setenv("TMPDIR", str(tmp_path / "scratch"))
     runs = planned(tmp_path)
     there = RemoteStore(f"file://{tmp_path}/there")
     outcomes = fly_batch(runs, there, lambda orders, stop: fly_here(orders, 2, stop), LIMITS)
     assert all(outcome.record and outcome.record.clean for outcome in outcomes)
-    fly_batch(runs, FolderStore(tmp_path / "here"), lambda orders, stop: fly_here(orders, 2, stop), LIMITS)
+    fly_batch(
+        runs, FolderStore(tmp_path / "here"), lambda orders, stop: fly_here(orders, 2, stop), LIMITS
+    )
     assert hashes(tmp_path / "there") == hashes(tmp_path / "here")
     assert there.names() == {f"{run.id}{ending}" for run in runs for ending in (".mcap", ".json")}
     assert not list((tmp_path / "scratch").iterdir())
@@ -217,9 +239,12 @@ def test_workers_upload_the_same_bytes_and_leave_nothing_behind(tmp_path: Path, 
     assert missing(runs, there) == [runs[1]]
 
 
-def test_what_a_killed_run_recorded_is_uploaded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_a_killed_run_recorded_is_uploaded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     deed = (
-        "import tempfile; (Path(tempfile.gettempdir()) / 'mine').touch(); (workdir / f'{order.id}.mcap.part').touch(); os.abort()"
+        "import tempfile; (Path(tempfile.gettempdir()) / 'mine').touch(); (workdir /"
+        " f'{order.id}.mcap.part').touch(); os.abort()"
     )
     sabotage(monkeypatch, deed)
     (tmp_path / "scratch").mkdir()
@@ -233,13 +258,21 @@ def test_what_a_killed_run_recorded_is_uploaded(tmp_path: Path, monkeypatch: pyt
     assert not list((tmp_path / "scratch").iterdir())
 
 
-def test_a_worker_never_has_a_driver_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_worker_never_has_a_driver_of_its_own(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Drivers start threads, and it forks."""
-    seen = f"os.register_at_fork(before=lambda: 'fsspec' in sys.modules and open('{tmp_path}/seen', 'w'))"
+    seen = (
+        f"os.register_at_fork(before=lambda: 'fsspec' in sys.modules and open('{tmp_path}/seen',"
+        " 'w'))"
+    )
     code = f"import os, sys; from atlas_cueing.batch import worker; {seen}; worker.main()"
     monkeypatch.setattr(workers, "_COMMAND", (sys.executable, "-c", code))
     outcomes = fly_batch(
-        planned(tmp_path), RemoteStore(f"file://{tmp_path}/there"), lambda orders, stop: fly_here(orders, 1, stop), LIMITS
+        planned(tmp_path),
+        RemoteStore(f"file://{tmp_path}/there"),
+        lambda orders, stop: fly_here(orders, 1, stop),
+        LIMITS,
     )
     assert [outcome.record and outcome.record.result for outcome in outcomes] == ["ok"] * 4
     assert not (tmp_path / "seen").exists()

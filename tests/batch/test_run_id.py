@@ -18,7 +18,12 @@ def test_it_reads_well_and_is_a_file_name(load: Load) -> None:
 
 
 def test_whatever_changes_the_log_changes_it(load: Load, monkeypatch: pytest.MonkeyPatch) -> None:
-    changes = ["duration_s=2", "cueing.align_rate_deg_s=2", "platform.wheel_limits.speed_rad_s=20", "recording.chunk_ticks=17"]
+    changes = [
+        "duration_s=2",
+        "cueing.align_rate_deg_s=2",
+        "platform.wheel_limits.speed_rad_s=20",
+        "recording.chunk_ticks=17",
+    ]
     ids = [run_id(load()), *(run_id(load(change)) for change in changes)]
     assert len(set(ids)) == len(ids)
     assert run_id(load("cueing.align_rate_deg_s=3.0")) == ids[0]  # the default, said aloud

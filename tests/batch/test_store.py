@@ -16,7 +16,10 @@ def test_a_url_is_one_and_anything_else_a_folder() -> None:
 
 @pytest.mark.parametrize("kind", ["", "file://"])
 def test_both_kinds_do_the_same(tmp_path: Path, kind: str) -> None:
-    """The same course of events, whatever the place: nothing made by looking, then files whole, then found from its `place`."""
+    """The same course of events, whatever the place.
+
+    Nothing made by looking, then files whole, then found from its `place`.
+    """
     results: ResultStore = open_store(f"{kind}{tmp_path}/new")
     results.check()
     assert results.names() == set()

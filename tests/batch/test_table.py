@@ -16,9 +16,28 @@ METRIC = "force_rms_m_s2"
 def outcomes(folder: Path) -> list[Outcome]:
     blend, attitude, force, classical = planned(folder)
     return [
-        Outcome(blend, JobResult(blend.id, "ok", "", "b.mcap", 31, 0.25, 0.1, ("x",), {METRIC: 2.0}, {"wheel_speed": 0.5})),
-        Outcome(attitude, JobResult(attitude.id, "ok", "", "a.mcap", 31, 0.25, 0.1, (), {METRIC: 1.0})),
-        Outcome(force, JobResult(force.id, "vehicle_failed", 'it said "no",\ntwice', metrics={METRIC: 0.0})),
+        Outcome(
+            blend,
+            JobResult(
+                blend.id,
+                "ok",
+                "",
+                "b.mcap",
+                31,
+                0.25,
+                0.1,
+                ("x",),
+                {METRIC: 2.0},
+                {"wheel_speed": 0.5},
+            ),
+        ),
+        Outcome(
+            attitude, JobResult(attitude.id, "ok", "", "a.mcap", 31, 0.25, 0.1, (), {METRIC: 1.0})
+        ),
+        Outcome(
+            force,
+            JobResult(force.id, "vehicle_failed", 'it said "no",\ntwice', metrics={METRIC: 0.0}),
+        ),
         Outcome(classical, None),
     ]
 
@@ -26,9 +45,22 @@ def outcomes(folder: Path) -> list[Outcome]:
 def test_a_row_has_what_it_was_and_what_came_of_it(tmp_path: Path) -> None:
     first, _, failed, unflown = rows(outcomes(tmp_path))
     assert first["run"] == outcomes(tmp_path)[0].run.id
-    assert (first["source"], first["scenario"], first["vehicle"]) == ("sweep.toml", "short", "c1722")
-    assert (first["method"], first["platform"], first["cueing.method"]) == ("blend", "atlas-2.9m", "blend")
-    assert (first["result"], first["violations"], first[METRIC], first["limit_use_wheel_speed"]) == ("ok", 1, 2.0, 0.5)
+    assert (first["source"], first["scenario"], first["vehicle"]) == (
+        "sweep.toml",
+        "short",
+        "c1722",
+    )
+    assert (first["method"], first["platform"], first["cueing.method"]) == (
+        "blend",
+        "atlas-2.9m",
+        "blend",
+    )
+    assert (
+        first["result"],
+        first["violations"],
+        first[METRIC],
+        first["limit_use_wheel_speed"],
+    ) == ("ok", 1, 2.0, 0.5)
     assert (first["ticks"], first["duration_s"], first["wall_s"]) == (31, 0.25, 0.1)
     assert failed["result"] == "vehicle_failed"
     assert unflown["result"] == "not_flown"
@@ -39,7 +71,12 @@ def test_the_best_first_and_what_failed_last(tmp_path: Path) -> None:
     table = ordered(rows(outcomes(tmp_path)), METRIC)
     assert [row["method"] for row in table] == ["attitude", "blend", "force", "classical"]
     flawed = [{**table[0], METRIC: nan}, *table[1:]]
-    assert [row["method"] for row in ordered(flawed, METRIC)] == ["blend", "attitude", "force", "classical"]
+    assert [row["method"] for row in ordered(flawed, METRIC)] == [
+        "blend",
+        "attitude",
+        "force",
+        "classical",
+    ]
 
 
 def test_the_text_has_every_column_and_every_digit(tmp_path: Path) -> None:
@@ -58,5 +95,7 @@ def test_metrics_are_known_before_anything_flies(tmp_path: Path) -> None:
     record = fly_alone(order(run, tmp_path), tmp_path)
     (row,) = rows([Outcome(run, record)])
     assert set(metric_names()) <= row.keys()
-    assert all("mismatch" in name or "drift" in name for name in set(record.metrics) - set(metric_names()))
+    assert all(
+        "mismatch" in name or "drift" in name for name in set(record.metrics) - set(metric_names())
+    )
     assert METRIC in metric_names()

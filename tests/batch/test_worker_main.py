@@ -53,8 +53,18 @@ def orders(folder: Path, limits: RunLimits) -> list[Job]:
             "ended by SIGABRT: free(): invalid pointer",
         ),
         ("os._exit(3)", RunLimits(), "crashed", "ended with exit status 3"),
-        ("print('{}', flush=True); time.sleep(600)", RunLimits(time=1.0), "timed_out", "not over after 1 s"),
-        ("bytearray(2 * 10**9)", RunLimits(memory=1.0), "out_of_memory", "needs more than 1 GB: ended with exit status 1"),
+        (
+            "print('{}', flush=True); time.sleep(600)",
+            RunLimits(time=1.0),
+            "timed_out",
+            "not over after 1 s",
+        ),
+        (
+            "bytearray(2 * 10**9)",
+            RunLimits(memory=1.0),
+            "out_of_memory",
+            "needs more than 1 GB: ended with exit status 1",
+        ),
         (
             "alone.run_scenario = lambda *_: bytearray(2 * 10**9); return fly(order, workdir)".replace(
                 "; return", "\n        return"
@@ -67,7 +77,12 @@ def orders(folder: Path, limits: RunLimits) -> list[Job]:
     ids=["signal", "abort", "exit", "hang", "memory", "memory-in-run"],
 )
 def test_one_runs_harm_is_no_others(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, deed: str, limits: RunLimits, result: str, reason: str
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    deed: str,
+    limits: RunLimits,
+    result: str,
+    reason: str,
 ) -> None:
     sabotage(monkeypatch, deed)
     harmed, sound = told(orders(tmp_path, limits))
@@ -77,20 +92,26 @@ def test_one_runs_harm_is_no_others(
     assert (tmp_path / f"{sound.id}.mcap").is_file()
 
 
-def test_what_a_killed_run_recorded_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_a_killed_run_recorded_is_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     sabotage(monkeypatch, "(Path(order.place) / f'{order.id}.mcap.part').touch(); os.abort()")
     harmed, _ = told(orders(tmp_path, RunLimits()))
     assert harmed.log == f"{harmed.id}.mcap.part"
 
 
-def test_the_real_command_from_a_folder_of_strange_modules(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_real_command_from_a_folder_of_strange_modules(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Nothing in the working directory is imported, nor gets printed text among the records."""
     (tmp_path / "json.py").write_text("raise SystemExit('the wrong json')")
     monkeypatch.chdir(tmp_path)
     assert [record.result for record in told(orders(tmp_path, RunLimits()))] == ["ok", "ok"]
 
 
-def test_what_a_library_prints_in_the_worker_is_no_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_a_library_prints_in_the_worker_is_no_record(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     noisy = "os.register_at_fork(before=lambda: os.write(1, b'noise'))"
     code = f"import os; from atlas_cueing.batch import worker; {noisy}; worker.main()"
     monkeypatch.setattr(workers, "_COMMAND", (sys.executable, "-c", code))
@@ -122,8 +143,13 @@ def test_a_worker_that_waits_for_another_ends_with_its_driver(tmp_path: Path) ->
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="death with the parent needs Linux's prctl")
-def test_when_the_worker_is_killed_the_run_goes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    deed = "alone.run_scenario = lambda *_: (Path(order.place, 'pid').write_text(str(os.getpid())), time.sleep(600))"
+def test_when_the_worker_is_killed_the_run_goes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    deed = (
+        "alone.run_scenario = lambda *_: (Path(order.place, 'pid').write_text(str(os.getpid())),"
+        " time.sleep(600))"
+    )
     sabotage(monkeypatch, deed)
     process = subprocess.Popen(workers._COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     assert process.stdin
@@ -133,6 +159,7 @@ def test_when_the_worker_is_killed_the_run_goes(tmp_path: Path, monkeypatch: pyt
     while process.poll() is None and not (pid.exists() and pid.read_text()):
         sleep(0.02)
     process.kill()
-    process.communicate(timeout=60)  # stdout ends only when the run, which holds it too, has let go of it
+    # stdout ends only when the run, which holds it too, has let go of it
+    process.communicate(timeout=60)
     state = Path(f"/proc/{pid.read_text()}/stat")
     until(lambda: not state.exists() or state.read_text().split()[2] in "ZX", 60.0)

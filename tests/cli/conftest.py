@@ -29,7 +29,9 @@ Command = Callable[..., Ended]
 
 
 @pytest.fixture
-def command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Command:
+def command(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Command:
     """The command in an empty folder that has only a scenario `s.toml`."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "s.toml").write_text(SCRIPT)

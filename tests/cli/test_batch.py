@@ -17,7 +17,9 @@ from atlas_cueing.recording import read_log
 
 from .conftest import SCRIPT, Command
 
-SWEEP = f'{SCRIPT}\n[sweep]\ncueing.method = ["blend", "attitude"]\ncueing.force_gain = [1.0, 0.5]\n'
+SWEEP = (
+    f'{SCRIPT}\n[sweep]\ncueing.method = ["blend", "attitude"]\ncueing.force_gain = [1.0, 0.5]\n'
+)
 START = [sys.executable, "-c", "import sys; from atlas_cueing.cli import main; sys.exit(main())"]
 
 
@@ -29,14 +31,26 @@ def sweep(command: Command, tmp_path: Path) -> Command:
 
 
 def test_a_batch_for_people(sweep: Command, tmp_path: Path) -> None:
-    ended = sweep("batch", "s.toml", "-o", "out", "--jobs", "1", "--top", "2", "--sort", "force_rms_m_s2")
+    ended = sweep(
+        "batch", "s.toml", "-o", "out", "--jobs", "1", "--top", "2", "--sort", "force_rms_m_s2"
+    )
     assert ended.status == 0
     assert ended.err.startswith("4 runs, 0 of them done already; to fly: 2 s of flight at most\n")
-    assert re.search(r"^4 of 4 runs done, 0 failed, \d+ flight s a second$", ended.err, re.MULTILINE)
+    assert re.search(
+        r"^4 of 4 runs done, 0 failed, \d+ flight s a second$", ended.err, re.MULTILINE
+    )
     lines = ended.out.splitlines()
-    assert re.match(r"run +result +cueing.method +cueing.force_gain +force rms m/s2 +direction rms deg", lines[0])
+    assert re.match(
+        r"run +result +cueing.method +cueing.force_gain +force rms m/s2 +direction rms deg",
+        lines[0],
+    )
     assert [
-        bool(re.match(r"short-c1722-\w+-[0-9a-f]{12} +ok +(blend|attitude) +(1|0\.5) +\d+\.\d+", line)) for line in lines[1:4]
+        bool(
+            re.match(
+                r"short-c1722-\w+-[0-9a-f]{12} +ok +(blend|attitude) +(1|0\.5) +\d+\.\d+", line
+            )
+        )
+        for line in lines[1:4]
     ] == [True, True, False]
     assert "runs        4 ok" in lines
     assert "violations  0" in lines
@@ -55,7 +69,12 @@ def test_a_batch_for_people(sweep: Command, tmp_path: Path) -> None:
 def test_a_batch_for_programs_and_a_second_time(sweep: Command, tmp_path: Path) -> None:
     first = sweep("batch", "s.toml", "-o", "out", "--json")
     table = json.loads(first.out)
-    assert (first.status, table["folder"], table["runs"], table["results"]) == (0, "out", 4, {"ok": 4})
+    assert (first.status, table["folder"], table["runs"], table["results"]) == (
+        0,
+        "out",
+        4,
+        {"ok": 4},
+    )
     assert {row["result"] for row in table["table"]} == {"ok"}
     before = {path: path.stat().st_mtime_ns for path in (tmp_path / "out").glob("short*")}
     again = sweep("batch", "s.toml", "-o", "out", "--json")
@@ -65,9 +84,20 @@ def test_a_batch_for_programs_and_a_second_time(sweep: Command, tmp_path: Path) 
 
 
 def test_a_run_that_fails_is_a_finding(sweep: Command) -> None:
-    ended = sweep("batch", "s.toml", "-o", "out", "--set", 'sweep.vehicle.script=["c1722", "plotfile"]')
+    ended = sweep(
+        "batch", "s.toml", "-o", "out", "--set", 'sweep.vehicle.script=["c1722", "plotfile"]'
+    )
     assert ended.status == 1
-    assert len(re.findall(r"^short-plotfile-\w+-[0-9a-f]{12}: vehicle_failed: .*<plotset>", ended.err, re.MULTILINE)) == 4
+    assert (
+        len(
+            re.findall(
+                r"^short-plotfile-\w+-[0-9a-f]{12}: vehicle_failed: .*<plotset>",
+                ended.err,
+                re.MULTILINE,
+            )
+        )
+        == 4
+    )
     assert "4 ok, 4 vehicle_failed" in ended.out
 
 
@@ -79,7 +109,10 @@ def test_a_run_that_fails_is_a_finding(sweep: Command) -> None:
         (["s.toml", "-o", "s.toml"], "folder s.toml: s.toml is no folder"),
         (["s.toml", "-o", "out", "--set", "duration_s=0"], "--set: duration_s = 0: "),
         (["s.toml", "-o", "out", "--jobs", "0"], "--jobs"),
-        (["s.toml", "-o", "out", "--cluster", "nonsense"], "--cluster nonsense: no scheduler reached"),
+        (
+            ["s.toml", "-o", "out", "--cluster", "nonsense"],
+            "--cluster nonsense: no scheduler reached",
+        ),
         (["s.toml", "-o", "out", "--sort", "beauty"], "--sort beauty: no such metric"),
         (["s.toml"], "--output"),
         (["s.toml", "-o", "nonsense://out"], "-o nonsense://out: Protocol not known: nonsense"),
@@ -88,7 +121,9 @@ def test_a_run_that_fails_is_a_finding(sweep: Command) -> None:
     ],
     ids=lambda part: str(part)[:30],
 )
-def test_bad_input_writes_nothing(sweep: Command, tmp_path: Path, arguments: list[str], message: str) -> None:
+def test_bad_input_writes_nothing(
+    sweep: Command, tmp_path: Path, arguments: list[str], message: str
+) -> None:
     ended = sweep("batch", *arguments)
     assert (ended.status, ended.out) == (2, "")
     assert message in ended.err
@@ -99,36 +134,52 @@ def test_bad_input_writes_nothing(sweep: Command, tmp_path: Path, arguments: lis
 @pytest.mark.parametrize(
     ("word", "meant"),
     [
-        ("force", r"force_rms_m_s2, force_p95_m_s2, force_max_m_s2, force_\w+, force_\w+ and \d+ more\?"),
+        (
+            "force",
+            r"force_rms_m_s2, force_p95_m_s2, force_max_m_s2, force_\w+, force_\w+ and \d+ more\?",
+        ),
         ("Stage travel", r"stage_travel_max_m\?"),  # as the review writes it
         ("drift", "allowed: .*|did you mean '.*"),  # in no name
         ("dirction_rms_rad", r"'direction_rms_rad'\?"),
         ("p99", r"extra_rate_p99_rad_s\?"),  # in the middle of a name
     ],
 )
-def test_a_wrong_metric_is_answered_with_those_that_were_meant(sweep: Command, word: str, meant: str) -> None:
+def test_a_wrong_metric_is_answered_with_those_that_were_meant(
+    sweep: Command, word: str, meant: str
+) -> None:
     ended = sweep("batch", "s.toml", "-o", "out", "--sort", word)
     assert ended.status == 2
-    assert re.search(rf"--sort {word}: no such metric; (did you mean )?({meant})", ended.err.replace("\n", " "))
+    assert re.search(
+        rf"--sort {word}: no such metric; (did you mean )?({meant})", ended.err.replace("\n", " ")
+    )
 
 
 def test_one_run_is_one_run(sweep: Command) -> None:
-    one = sweep("batch", "s.toml", "-o", "out", "--dry-run", "--set", 'sweep={cueing.method=["blend"]}')
+    one = sweep(
+        "batch", "s.toml", "-o", "out", "--dry-run", "--set", 'sweep={cueing.method=["blend"]}'
+    )
     assert one.err.startswith("1 run, 0 of them done already")
 
 
-def test_pages_for_the_browser(sweep: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_pages_for_the_browser(
+    sweep: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     command = ("batch", "s.toml", "-o", "out", "--pages", "--set", "sweep.cueing.force_gain=[1.0]")
     assert sweep(*command).status == 0
     pages = list((tmp_path / "out").glob("short*.html"))
     assert len(pages) == 2
-    assert all(f'href="{page.name}"' in (tmp_path / "out" / "index.html").read_text() for page in pages)
+    assert all(
+        f'href="{page.name}"' in (tmp_path / "out" / "index.html").read_text() for page in pages
+    )
     pages[0].write_text("mine")
     assert sweep(*command).status == 0
     assert pages[0].read_text() == "mine"
     monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
     ended = sweep(*command)
-    assert (ended.status, ended.err) == (2, f"error: {MissingExtraError('--pages', 'plotly', 'report')}\n")
+    assert (ended.status, ended.err) == (
+        2,
+        f"error: {MissingExtraError('--pages', 'plotly', 'report')}\n",
+    )
 
 
 def test_a_dry_run_writes_nothing(sweep: Command, tmp_path: Path) -> None:
@@ -147,7 +198,10 @@ def test_run_points_to_batch(sweep: Command) -> None:
 def test_a_local_cluster(sweep: Command, tmp_path: Path) -> None:
     assert sweep("batch", "s.toml", "-o", "here", "--top", "0").status == 0
     assert sweep("batch", "s.toml", "-o", "there", "--cluster", "local", "--jobs", "1").status == 0
-    here, there = ({path.name: path.read_bytes() for path in (tmp_path / name).glob("*.mcap")} for name in ("here", "there"))
+    here, there = (
+        {path.name: path.read_bytes() for path in (tmp_path / name).glob("*.mcap")}
+        for name in ("here", "there")
+    )
     assert len(here) == 4
     assert here == there
 
@@ -159,11 +213,13 @@ def test_to_a_url_and_again(sweep: Command, tmp_path: Path) -> None:
     first = sweep("batch", "s.toml", "-o", url, "--jobs", "1", "--top", "0")
     assert first.status == 0
     assert f"overview    {url}/index.html" in first.out.splitlines()
-    here, there = ({path.name for path in (tmp_path / name).iterdir()} for name in ("here", "there"))
+    here, there = (
+        {path.name for path in (tmp_path / name).iterdir()} for name in ("here", "there")
+    )
     assert there == {name for name in here if not name.endswith(".lock")}
     logs = {path: path.stat() for path in (tmp_path / "there").glob("*.mcap")}
     assert all(path.read_bytes() == (tmp_path / "here" / path.name).read_bytes() for path in logs)
-    (gone, *_) = logs
+    gone, *_ = logs
     gone.unlink()
     again = sweep("batch", "s.toml", "-o", url, "--json", "--pages")
     assert (again.status, json.loads(again.out)["folder"]) == (0, url)
@@ -175,20 +231,27 @@ def test_to_a_url_and_again(sweep: Command, tmp_path: Path) -> None:
     )
     assert gone.read_bytes() == (tmp_path / "here" / gone.name).read_bytes()
     overview = (tmp_path / "there" / "index.html").read_text()
-    assert all(f'href="{path.stem}.html"' in overview and path.with_suffix(".html").is_file() for path in logs)
+    assert all(
+        f'href="{path.stem}.html"' in overview and path.with_suffix(".html").is_file()
+        for path in logs
+    )
     assert not list((tmp_path / "there").glob("*.upload"))
 
 
 def started(folder: Path) -> "subprocess.Popen[str]":
     command = [*START, "batch", "s.toml", "-o", "out", "--jobs", "1"]
-    return subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    return subprocess.Popen(
+        command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
 
 
 def logs(folder: Path) -> dict[str, tuple[int, str]]:
     """Logs whose runs are complete: when they were written, and what is in them."""
     records = (folder / "out").glob("*.json")
     done = [path.with_suffix(".mcap") for path in records]
-    return {path.name: (path.stat().st_mtime_ns, sha256(path.read_bytes()).hexdigest()) for path in done}
+    return {
+        path.name: (path.stat().st_mtime_ns, sha256(path.read_bytes()).hexdigest()) for path in done
+    }
 
 
 def test_a_driver_killed_again_and_again(sweep: Command, tmp_path: Path) -> None:
@@ -215,7 +278,9 @@ def test_a_driver_killed_again_and_again(sweep: Command, tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_stops_the_batch_and_says_how_to_go_on(tmp_path: Path, number: signal.Signals) -> None:
+def test_a_signal_stops_the_batch_and_says_how_to_go_on(
+    tmp_path: Path, number: signal.Signals
+) -> None:
     (tmp_path / "s.toml").write_text(SWEEP.replace("0.45", "3600.0").replace("c1722", "ball"))
     driver = started(tmp_path)
     while driver.poll() is None and not list(tmp_path.glob("out/*.part")):

@@ -15,7 +15,9 @@ from .test_progress import Terminal
 
 @pytest.fixture
 def runs(tmp_path: Path) -> list[PlannedRun]:
-    (tmp_path / "s.toml").write_text(f'{SCRIPT}\n[sweep]\ncueing.method = ["blend", "attitude", "force"]')
+    (tmp_path / "s.toml").write_text(
+        f'{SCRIPT}\n[sweep]\ncueing.method = ["blend", "attitude", "force"]'
+    )
     return plan([tmp_path / "s.toml"])
 
 
@@ -29,12 +31,16 @@ def shown(runs: list[PlannedRun], monkeypatch: pytest.MonkeyPatch, stderr: io.St
     return stderr.getvalue()
 
 
-def test_a_file_gets_a_line_at_the_end_and_now_and_then(runs: list[PlannedRun], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_gets_a_line_at_the_end_and_now_and_then(
+    runs: list[PlannedRun], monkeypatch: pytest.MonkeyPatch
+) -> None:
     told = shown(runs, monkeypatch, io.StringIO())
     assert re.fullmatch(r"3 of 3 runs done, 1 failed, \d+ flight s a second\n", told)
     monkeypatch.setattr(module, "_LINE_EVERY", 0.0)
     first, second, last = shown(runs, monkeypatch, io.StringIO()).splitlines()
-    assert re.fullmatch(r"1 of 3 runs done, 0 failed, \d+ flight s a second, 0 s left at most", first)
+    assert re.fullmatch(
+        r"1 of 3 runs done, 0 failed, \d+ flight s a second, 0 s left at most", first
+    )
     assert second.startswith("2 of 3 runs done, 1 failed")
     assert last.startswith("3 of 3 runs done, 1 failed")
 
@@ -43,8 +49,13 @@ def test_a_terminal_gets_a_bar(runs: list[PlannedRun], monkeypatch: pytest.Monke
     assert "3 of 3 runs done, 1 failed" in shown(runs, monkeypatch, Terminal())
 
 
-def test_what_is_left_is_measured_by_flight_and_not_by_runs(runs: list[PlannedRun], monkeypatch: pytest.MonkeyPatch) -> None:
-    """A third of the ticks in 10 s leaves 20 s; a run that fails at once makes the rest no faster."""
+def test_what_is_left_is_measured_by_flight_and_not_by_runs(
+    runs: list[PlannedRun], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A third of the ticks in 10 s leaves 20 s.
+
+    A run that fails at once makes the rest no faster.
+    """
     count = module.Count(runs)
     monkeypatch.setattr(module.Count, "wall", 10.0)
     count.add(JobResult(runs[0].id, "ok", ticks=54, duration=0.45))
@@ -53,6 +64,8 @@ def test_what_is_left_is_measured_by_flight_and_not_by_runs(runs: list[PlannedRu
     assert count.text().endswith("10 s left at most")
 
 
-@pytest.mark.parametrize(("time", "text"), [(0.4, "0 s"), (99.0, "99 s"), (120.0, "2 min"), (9000.0, "2.5 h")])
+@pytest.mark.parametrize(
+    ("time", "text"), [(0.4, "0 s"), (99.0, "99 s"), (120.0, "2 min"), (9000.0, "2.5 h")]
+)
 def test_times_are_spoken_in_the_unit_that_fits(time: float, text: str) -> None:
     assert spoken(time) == text

@@ -23,7 +23,10 @@ def test_for_people(command: Command, logs: tuple[str, str]) -> None:
     lines = ended.out.splitlines()
     assert lines[0].split() == ["blend", "attitude"]
     assert lines[1].split() == ["verdict", "clean", "clean"]
-    assert re.fullmatch(r"direction rms deg +\d+\.\d{3} +\d+\.\d{3}", lines[5]) or "direction rms deg" in ended.out
+    assert (
+        re.fullmatch(r"direction rms deg +\d+\.\d{3} +\d+\.\d{3}", lines[5])
+        or "direction rms deg" in ended.out
+    )
     assert len({len(line) for line in lines}) == 1
 
 
@@ -51,7 +54,16 @@ def test_bad_usage(command: Command, logs: tuple[str, str], tmp_path: Path) -> N
 
 
 def test_findings_are_told(command: Command, logs: tuple[str, str]) -> None:
-    command("run", "s.toml", "-o", "failed.mcap", "--set", "vehicle.script=cannonball", "--set", "duration_s=600")
+    command(
+        "run",
+        "s.toml",
+        "-o",
+        "failed.mcap",
+        "--set",
+        "vehicle.script=cannonball",
+        "--set",
+        "duration_s=600",
+    )
     ended = command("compare", logs[0], "failed.mcap", "--different-flights")
     assert ended.status == 1
     assert "result = 'vehicle_failed'" in ended.err

@@ -1,4 +1,7 @@
-"""Disks that fill up, folders that go, two runs at once, signals: a message, and what was recorded can be read."""
+"""Disks that fill up, folders that go, two runs at once, signals.
+
+A message, and what was recorded can be read.
+"""
 
 import os
 import resource
@@ -15,7 +18,13 @@ from atlas_cueing.run import fly as run_module
 
 from .conftest import SCRIPT, Command
 
-COMMAND = [sys.executable, "-W", "error", "-c", "import sys; from atlas_cueing.cli import main; sys.exit(main())"]
+COMMAND = [
+    sys.executable,
+    "-W",
+    "error",
+    "-c",
+    "import sys; from atlas_cueing.cli import main; sys.exit(main())",
+]
 LONG = SCRIPT.replace("0.45", "30.0") + "[recording]\nchunk_ticks = 64\n"
 ROOM = 200_000  # bytes; a tenth of the log
 
@@ -53,7 +62,9 @@ def test_a_full_disk(tmp_path: Path, command: Command) -> None:
     assert len(time) % 64 == 0
 
 
-def test_the_folder_goes_in_mid_run(tmp_path: Path, command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_folder_goes_in_mid_run(
+    tmp_path: Path, command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
     (tmp_path / "s.toml").write_text(LONG)
     (tmp_path / "out").mkdir()
     at_block(monkeypatch, 2, lambda: shutil.rmtree(tmp_path / "out"))
@@ -86,7 +97,9 @@ def test_what_a_killed_run_left_is_not_overwritten(tmp_path: Path, command: Comm
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_asked_to_stop(tmp_path: Path, command: Command, monkeypatch: pytest.MonkeyPatch, number: signal.Signals) -> None:
+def test_asked_to_stop(
+    tmp_path: Path, command: Command, monkeypatch: pytest.MonkeyPatch, number: signal.Signals
+) -> None:
     (tmp_path / "s.toml").write_text(LONG)
     at_block(monkeypatch, 3, lambda: signal.raise_signal(number))
     ended = command("run", "s.toml")
@@ -101,12 +114,16 @@ def test_killed(tmp_path: Path, command: Command) -> None:
     """Every chunk that was full by then can be had back."""
     (tmp_path / "s.toml").write_text(LONG)
     killing = (
-        "import os, sys; from atlas_cueing.batch import run as r; from atlas_cueing.cli import main; keep = r._Keeper.keep\n"
-        "def k(self, states):\n keep(self, states)\n if self._flown.ticks > 600: os.kill(os.getpid(), 9)\n"
-        "r._Keeper.keep = k\nsys.exit(main())"
+        "import os, sys; from atlas_cueing.batch import run as r; from atlas_cueing.cli import"
+        " main; keep = r._Keeper.keep\ndef k(self, states):\n keep(self, states)\n if"
+        " self._flown.ticks > 600: os.kill(os.getpid(), 9)\nr._Keeper.keep = k\nsys.exit(main())"
     )
     ended = subprocess.run(
-        [sys.executable, "-c", killing, "run", "s.toml"], cwd=tmp_path, capture_output=True, timeout=300.0, check=False
+        [sys.executable, "-c", killing, "run", "s.toml"],
+        cwd=tmp_path,
+        capture_output=True,
+        timeout=300.0,
+        check=False,
     )
     assert ended.returncode == -signal.SIGKILL
     assert sorted(path.name for path in tmp_path.iterdir()) == ["s.toml", "short.mcap.part"]
@@ -119,4 +136,7 @@ def test_killed(tmp_path: Path, command: Command) -> None:
 def test_a_folder_of_somebody_else(tmp_path: Path, command: Command) -> None:
     (tmp_path / "mine").mkdir(mode=0o500)
     ended = command("run", "s.toml", "-o", "mine/x.mcap")
-    assert (ended.status, ended.err) == (2, "error: log mine/x.mcap: folder mine cannot be written to\n")
+    assert (ended.status, ended.err) == (
+        2,
+        "error: log mine/x.mcap: folder mine cannot be written to\n",
+    )

@@ -1,4 +1,7 @@
-"""The command, in a process of its own. A machine too busy for 100 Hz may make a fault of a run: then the exit status is 1."""
+"""The command, in a process of its own.
+
+A machine too busy for 100 Hz may make a fault of a run: then the exit status is 1.
+"""
 
 import json
 import signal
@@ -40,7 +43,9 @@ def folder(tmp_path: Path) -> Path:
 def started(folder: Path, *arguments: str) -> subprocess.Popen[str]:
     """The command, once its loop runs: handlers of signals come before the log, ticks after it."""
     command = [PROGRAM, "live", "s.toml", "-o", "l.mcap", "--rate", "100", *arguments]
-    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen(
+        command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
     part = folder / "l.mcap.part"
     until(lambda: process.poll() is not None or part.exists(), 60.0)
     assert process.poll() is None, process.communicate()
@@ -115,7 +120,8 @@ def test_a_signal_parks_and_finishes_the_log(folder: Path, number: signal.Signal
         assert states[-1] == "parked"
     else:
         assert (result["result"], states[-1]) == ("fault", "stopped")
-        assert process.returncode in (1, -number)  # a fault may have ended the run, and nearly the process, before the signal
+        # a fault may have ended the run, and nearly the process, before the signal
+        assert process.returncode in (1, -number)
 
 
 def test_a_second_signal_stops_and_the_log_is_whole(folder: Path) -> None:
@@ -125,13 +131,17 @@ def test_a_second_signal_stops_and_the_log_is_whole(folder: Path) -> None:
         drives.setblocking(False)
         process = started(folder, "--json", "--setpoints", f"127.0.0.1:{drives.getsockname()[1]}")
         for state in ("running", "parking"):
-            until(lambda awaited=state: process.poll() is not None or awaited in states(drives), 60.0)
+            until(
+                lambda awaited=state: process.poll() is not None or awaited in states(drives), 60.0
+            )
             process.send_signal(signal.SIGTERM)
     out, err = process.communicate(timeout=60.0)
     assert "Traceback" not in err
     result = json.loads(out)
     assert result["result"] in ("stopped", "fault")
-    assert process.returncode == 1 or (result["result"] == "fault" and process.returncode == -signal.SIGTERM)
+    assert process.returncode == 1 or (
+        result["result"] == "fault" and process.returncode == -signal.SIGTERM
+    )
     log = read_log(folder / "l.mcap")
     assert log.metadata["result"] == result["result"]
     assert log.statuses[-1].state == "stopped"

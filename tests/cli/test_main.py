@@ -26,9 +26,17 @@ def test_the_installed_command_is_this_one() -> None:
 
 
 def test_version(command: Command) -> None:
-    kind = "compiled" if rotation.__file__.endswith(".so") else "plain Python (it runs from its source tree)"
+    kind = (
+        "compiled"
+        if rotation.__file__.endswith(".so")
+        else "plain Python (it runs from its source tree)"
+    )
     ended = command("--version")
-    assert (ended.status, ended.out, ended.err) == (0, f"atlas-cueing {version('atlas_cueing')}, {kind}\n", "")
+    assert (ended.status, ended.out, ended.err) == (
+        0,
+        f"atlas-cueing {version('atlas_cueing')}, {kind}\n",
+        "",
+    )
 
 
 @pytest.mark.parametrize("arguments", [["--help"], ["run", "--help"], ["platform", "--help"]])
@@ -42,14 +50,20 @@ def test_help_has_examples(command: Command, arguments: list[str]) -> None:
 def test_help_loads_neither_simulator_nor_numbers() -> None:
     """That is what makes it fast."""
     code = (
-        "import sys; from atlas_cueing.cli import main; main(['run', '--help']); print(*sorted(sys.modules), file=sys.stderr)"
+        "import sys; from atlas_cueing.cli import main; main(['run', '--help']);"
+        " print(*sorted(sys.modules), file=sys.stderr)"
     )
-    modules = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stderr.split()
+    modules = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    ).stderr.split()
     assert "atlas_cueing.cli.run" in modules
     assert not {"jsbsim", "numpy", "scipy", "ruckig", "mcap"} & set(modules)
 
 
-@pytest.mark.parametrize("arguments", [["fly"], ["run"], ["run", "a.toml", "b.toml"], ["run", "s.toml", "--fast"], ["--json"]])
+@pytest.mark.parametrize(
+    "arguments",
+    [["fly"], ["run"], ["run", "a.toml", "b.toml"], ["run", "s.toml", "--fast"], ["--json"]],
+)
 def test_wrong_usage(command: Command, tmp_path: Path, arguments: list[str]) -> None:
     ended = command(*arguments)
     assert (ended.status, ended.out) == (2, "")
@@ -64,7 +78,9 @@ def test_no_arguments_show_the_help(command: Command) -> None:
 
 
 @pytest.mark.parametrize(("error", "status"), [(InputError("wrong"), 2), (LogError("wrong"), 1)])
-def test_errors_of_ours(command: Command, monkeypatch: pytest.MonkeyPatch, error: Exception, status: int) -> None:
+def test_errors_of_ours(
+    command: Command, monkeypatch: pytest.MonkeyPatch, error: Exception, status: int
+) -> None:
     def fail(*_: object, **__: object) -> None:
         raise error
 
@@ -90,7 +106,11 @@ def test_errors_that_nobody_expected(command: Command, monkeypatch: pytest.Monke
 def test_debug_shows_the_log(tmp_path: Path) -> None:
     (tmp_path / "s.toml").write_text(SCRIPT)
     ended = subprocess.run(
-        [*START, "--debug", "run", "s.toml", "--json"], cwd=tmp_path, capture_output=True, text=True, check=True
+        [*START, "--debug", "run", "s.toml", "--json"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=True,
     )
     assert "atlas_cueing.jsbsim" in ended.stderr
     assert ended.stdout.startswith("{")
@@ -106,7 +126,11 @@ def test_main_adds_no_output_of_its_own_to_the_log(command: Command) -> None:
 def test_a_signal_ends_a_run_with_a_finished_log(tmp_path: Path, number: signal.Signals) -> None:
     (tmp_path / "s.toml").write_text(SCRIPT.replace("0.45", "3600.0").replace("c1722", "ball"))
     process = subprocess.Popen(
-        [*START, "run", "s.toml", "--json"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [*START, "run", "s.toml", "--json"],
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
     )
     part = tmp_path / "short.mcap.part"
     until(lambda: part.exists() and part.stat().st_size > 100_000, 60.0)

@@ -33,7 +33,15 @@ def here(command: Command, tmp_path: Path) -> Path:
         ["run", f"{NAME}.toml", "-o", f"{NAME}-new.mcap"],
         ["run", "s.toml", "-o", "new.mcap", "--set", f"platform.file={NAME}-platform.toml"],
         ["run", "s.toml", "-o", "new.mcap", "--set", f'platform.file="{NAME}-platform.toml"'],
-        ["run", "s.toml", "-o", "new.mcap", "--set", f"vehicle.script={NAME}.xml", "--trust-models"],
+        [
+            "run",
+            "s.toml",
+            "-o",
+            "new.mcap",
+            "--set",
+            f"vehicle.script={NAME}.xml",
+            "--trust-models",
+        ],
         ["run", "s.toml", "-o", "new.mcap", "--set", f"description={NAME}"],
         ["review", f"{NAME}.mcap"],
         ["review", f"{NAME}.mcap", "--html", f"{NAME}.html", "--replay", f"{NAME}-3d.html"],
@@ -66,7 +74,9 @@ def test_they_are_shown_and_json_keeps_them(command: Command, here: Path) -> Non
     assert json.loads(command("review", f"{NAME}.mcap", "--json").out)["log"] == f"{NAME}.mcap"
     command("review", f"{NAME}.mcap", "--html", "page.html")
     assert f"{SHOWN}.mcap" in (here / "page.html").read_text()
-    assert command("run", f"no{NAME}.toml").err.startswith(f"error: no{SHOWN}.toml: file: cannot be read")
+    assert command("run", f"no{NAME}.toml").err.startswith(
+        f"error: no{SHOWN}.toml: file: cannot be read"
+    )
 
 
 def test_a_batch(command: Command, here: Path) -> None:
@@ -89,7 +99,9 @@ def test_a_line_break_in_a_name_forges_no_message(command: Command) -> None:
         assert "a\\n" in ended.err
 
 
-def test_a_folder_that_jsbsim_cannot_be_told_of(command: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_folder_that_jsbsim_cannot_be_told_of(
+    command: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     (tmp_path / NAME).mkdir()
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / NAME))
     ended = command("run", "s.toml")

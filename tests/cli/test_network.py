@@ -10,7 +10,8 @@ import pytest
 from .conftest import SCRIPT, Command
 
 ALONE = ["unshare", "--user", "--map-root-user", "--net"]
-# The lists are read while the vehicle flies; in a namespace of its own they hold the sockets of this process and no other.
+# The lists are read while the vehicle flies; in a namespace of its own they hold the sockets of
+# this process and no other.
 FLY = """
 import sys
 from pathlib import Path
@@ -36,17 +37,39 @@ USERS = """<runscript>
 
 
 def permitted() -> bool:
-    return bool(shutil.which(ALONE[0])) and subprocess.run([*ALONE, "true"], capture_output=True, timeout=60.0).returncode == 0
+    return (
+        bool(shutil.which(ALONE[0]))
+        and subprocess.run([*ALONE, "true"], capture_output=True, timeout=60.0).returncode == 0
+    )
 
 
 @pytest.mark.skipif(not permitted(), reason="needs unshare and leave to make a network namespace")
-@pytest.mark.parametrize("script", ["c1722", "737_cruise", "mine.xml"], ids=["quiet", "listens", "sends and listens"])
-def test_without_a_network_a_run_is_the_same_byte_for_byte(command: Command, tmp_path: Path, script: str) -> None:
+@pytest.mark.parametrize(
+    "script", ["c1722", "737_cruise", "mine.xml"], ids=["quiet", "listens", "sends and listens"]
+)
+def test_without_a_network_a_run_is_the_same_byte_for_byte(
+    command: Command, tmp_path: Path, script: str
+) -> None:
     (tmp_path / "s.toml").write_text(SCRIPT)
     (tmp_path / "mine.xml").write_text(USERS)
-    assert command("run", "s.toml", "-o", "open.mcap", "--trust-models", "--set", f"vehicle.script={script}").status == 0
+    assert (
+        command(
+            "run",
+            "s.toml",
+            "-o",
+            "open.mcap",
+            "--trust-models",
+            "--set",
+            f"vehicle.script={script}",
+        ).status
+        == 0
+    )
     done = subprocess.run(
-        [*ALONE, sys.executable, "-c", FLY, "alone.mcap", script], cwd=tmp_path, capture_output=True, text=True, timeout=300.0
+        [*ALONE, sys.executable, "-c", FLY, "alone.mcap", script],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=300.0,
     )
     assert done.stderr == "0 ['lo'] [[]]\n"
     assert (tmp_path / "alone.mcap").read_bytes() == (tmp_path / "open.mcap").read_bytes()

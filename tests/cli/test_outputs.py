@@ -31,7 +31,9 @@ def log(command: Command, tmp_path: Path) -> Path:
     ],
     ids=lambda words: " ".join(words) if isinstance(words, list) else "",
 )
-def test_a_link_stays_and_leads_to_the_output(command: Command, log: Path, words: list[str], old: str) -> None:
+def test_a_link_stays_and_leads_to_the_output(
+    command: Command, log: Path, words: list[str], old: str
+) -> None:
     """Dangling at first, then to what --force may replace."""
     folder = log.parent
     (folder / "there").mkdir()
@@ -55,7 +57,9 @@ def test_a_page_does_not_replace_a_log_nor_a_log_a_page(command: Command, log: P
     assert (log.parent / "other.mcap").read_bytes() == before
 
 
-def test_a_log_that_appears_in_mid_run_stays(command: Command, log: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_log_that_appears_in_mid_run_stays(
+    command: Command, log: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     log.unlink()
     finish = whole_file.Destination.take
 
@@ -85,7 +89,9 @@ def test_a_batch_replaces_only_its_own(command: Command, tmp_path: Path, name: s
 
 
 @pytest.mark.parametrize("number", [errno.ENOSPC, errno.EDQUOT, errno.EROFS])
-def test_what_the_system_refuses_is_no_bug(command: Command, monkeypatch: pytest.MonkeyPatch, number: int) -> None:
+def test_what_the_system_refuses_is_no_bug(
+    command: Command, monkeypatch: pytest.MonkeyPatch, number: int
+) -> None:
     def refuse(*_: object, **__: object) -> None:
         raise OSError(number, os.strerror(number), "scratch")
 

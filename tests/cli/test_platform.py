@@ -13,9 +13,17 @@ CASES = json.loads((Path(__file__).parents[1] / "oracles" / "kinematics.json").r
 
 def platform_file(case: dict) -> str:
     wheels = zip(case["contact"], case["drive"], case["wheel_radius_m"], strict=True)
-    tables = [f"[[wheel]]\ncontact = {contact}\ndrive = {drive}\nradius_m = {radius}" for contact, drive, radius in wheels]
+    tables = [
+        f"[[wheel]]\ncontact = {contact}\ndrive = {drive}\nradius_m = {radius}"
+        for contact, drive, radius in wheels
+    ]
     limits = presets()["atlas-2.9m"].read_text().split("[wheel_limits]")[1]
-    return f'name = "mine"\n[sphere]\nradius_m = {case["sphere_radius_m"]}\n' + "\n".join(tables) + "\n[wheel_limits]" + limits
+    return (
+        f'name = "mine"\n[sphere]\nradius_m = {case["sphere_radius_m"]}\n'
+        + "\n".join(tables)
+        + "\n[wheel_limits]"
+        + limits
+    )
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case["name"])
@@ -27,11 +35,15 @@ def test_oracle(command: Command, tmp_path: Path, case: dict) -> None:
     assert table["slip_free"] is case["slip_free"]
     assert table["determinant"] == pytest.approx(case["det_induced"], abs=1e-12)
     np.testing.assert_allclose(table["induced_rows"], case["induced_rows"], atol=1e-12)
-    np.testing.assert_allclose(table["wheels_from_sphere"], case["wheels_from_sphere"], rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(
+        table["wheels_from_sphere"], case["wheels_from_sphere"], rtol=1e-12, atol=1e-12
+    )
     if case["slip_free"]:
         assert (ended.status, ended.err) == (0, "")
         assert table["condition_number"] == pytest.approx(case["cond_induced"], rel=1e-12)
-        np.testing.assert_allclose(table["sphere_from_wheels"], case["sphere_from_wheels"], rtol=1e-12, atol=1e-12)
+        np.testing.assert_allclose(
+            table["sphere_from_wheels"], case["sphere_from_wheels"], rtol=1e-12, atol=1e-12
+        )
     else:
         assert ended.status == 1
         assert "kinematic slip condition" in ended.err

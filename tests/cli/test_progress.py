@@ -32,7 +32,9 @@ def test_a_short_run_shows_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize("duration", [10.0, None])
-def test_a_long_run_shows_how_far_it_is(monkeypatch: pytest.MonkeyPatch, duration: float | None) -> None:
+def test_a_long_run_shows_how_far_it_is(
+    monkeypatch: pytest.MonkeyPatch, duration: float | None
+) -> None:
     monkeypatch.setattr(progress, "_SHORT", -1.0)
     text = shown(monkeypatch, Terminal(), duration)
     assert "flight" in text

@@ -13,7 +13,11 @@ def cut(command: Command, tmp_path: Path) -> Path:
     """A log cut in its third chunk of 16 ticks."""
     assert command("run", "s.toml", "--set", "recording.chunk_ticks=16").status == 0
     data = (tmp_path / "short.mcap").read_bytes()
-    places = [place for place in range(len(data)) if data.startswith(b"\x04\0\0\0zstd", place) and data[place - 37] == 6]
+    places = [
+        place
+        for place in range(len(data))
+        if data.startswith(b"\x04\0\0\0zstd", place) and data[place - 37] == 6
+    ]
     (tmp_path / "short.mcap").unlink()
     (tmp_path / "cut.mcap").write_bytes(data[: places[2] + 100])
     return tmp_path / "cut.mcap"
@@ -37,7 +41,10 @@ def test_for_programs(command: Command, cut: Path) -> None:
 
 def test_a_whole_log(command: Command) -> None:
     command("run", "s.toml")
-    assert command("recover", "short.mcap", "-o", "copy.mcap").out.splitlines()[-1] == "lost       nothing"
+    assert (
+        command("recover", "short.mcap", "-o", "copy.mcap").out.splitlines()[-1]
+        == "lost       nothing"
+    )
     assert command("review", "copy.mcap").status == 0
 
 

@@ -35,8 +35,22 @@ def test_bad_usage_writes_nothing(command: Command, tmp_path: Path) -> None:
         (["missing.mcap", "-o", "new.mcap"], "no such file"),
         (["short.mcap", "-o", "short.mcap", "--force"], "is a file that is read"),
         (["short.mcap", "-o", "s.toml"], "exists already"),
-        (["short.mcap", "-o", "new.mcap", "--set", "vehicle.script=c1723"], "the flight is the recorded one"),
-        (["short.mcap", "-o", "new.mcap", "--set", "cueing.method=x", "--set", "platform.preset=y"], "--set: cueing.method"),
+        (
+            ["short.mcap", "-o", "new.mcap", "--set", "vehicle.script=c1723"],
+            "the flight is the recorded one",
+        ),
+        (
+            [
+                "short.mcap",
+                "-o",
+                "new.mcap",
+                "--set",
+                "cueing.method=x",
+                "--set",
+                "platform.preset=y",
+            ],
+            "--set: cueing.method",
+        ),
     ):
         ended = command("recue", *arguments)
         assert (ended.status, ended.out) == (2, "")
@@ -46,7 +60,16 @@ def test_bad_usage_writes_nothing(command: Command, tmp_path: Path) -> None:
 
 
 def test_every_mistake_is_a_line_of_its_own(command: Command, log: Path) -> None:
-    ended = command("recue", log.name, "-o", "new.mcap", "--set", "cueing.method=x", "--set", "platform.preset=y")
+    ended = command(
+        "recue",
+        log.name,
+        "-o",
+        "new.mcap",
+        "--set",
+        "cueing.method=x",
+        "--set",
+        "platform.preset=y",
+    )
     lines = ended.err.splitlines()
     assert len(lines) == 2
     assert all(line.startswith("error: --set: ") for line in lines)
@@ -54,7 +77,9 @@ def test_every_mistake_is_a_line_of_its_own(command: Command, log: Path) -> None
 
 def test_a_finding(command: Command, log: Path) -> None:
     """A vehicle that failed is a finding of the recued log as well."""
-    command("run", "s.toml", "--force", "--set", "vehicle.script=cannonball", "--set", "duration_s=600")
+    command(
+        "run", "s.toml", "--force", "--set", "vehicle.script=cannonball", "--set", "duration_s=600"
+    )
     ended = command("recue", log.name, "-o", "new.mcap")
     assert ended.status == 1
     assert "vehicle_failed" in ended.out

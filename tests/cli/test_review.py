@@ -50,11 +50,20 @@ def test_a_review_for_programs(command: Command, log: Path) -> None:
 
 
 def test_findings(command: Command) -> None:
-    assert command("run", "s.toml", "--set", "vehicle.script=cannonball", "--set", "duration_s=600").status == 1
+    assert (
+        command(
+            "run", "s.toml", "--set", "vehicle.script=cannonball", "--set", "duration_s=600"
+        ).status
+        == 1
+    )
     ended = command("review", "short.mcap")
     assert ended.status == 1
     assert re.search(r"^verdict +\d+ findings?$", ended.out, re.MULTILINE)
-    assert re.search(r"^finding +atlas.run: result: result = 'vehicle_failed', allowed: 'ok'; ", ended.out, re.MULTILINE)
+    assert re.search(
+        r"^finding +atlas.run: result: result = 'vehicle_failed', allowed: 'ok'; ",
+        ended.out,
+        re.MULTILINE,
+    )
     assert len(json.loads(command("review", "short.mcap", "--json").out)["findings"]) >= 1
 
 
@@ -74,7 +83,10 @@ def test_a_damaged_log_names_the_remedy(command: Command, log: Path) -> None:
     [
         (["missing.mcap"], "no such file"),
         (["."], "is a folder; name one of the logs in it"),
-        (["short.mcap", "--html", "no/such/page.html"], "page no/such/page.html: there is no folder no/such"),
+        (
+            ["short.mcap", "--html", "no/such/page.html"],
+            "page no/such/page.html: there is no folder no/such",
+        ),
         (["short.mcap", "--html", "s.toml"], "page s.toml: exists already"),
         (["short.mcap", "--replay", "."], "no regular file"),
     ],
@@ -87,7 +99,9 @@ def test_bad_usage(command: Command, arguments: list[str], message: str) -> None
     assert len(ended.err.splitlines()) == 1
 
 
-def test_a_view_is_served_until_ctrl_c(command: Command, log: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_view_is_served_until_ctrl_c(
+    command: Command, log: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     shown = []
 
     def interrupted(_: PlayPage, elapsed: float) -> None:
@@ -111,13 +125,21 @@ def record(opcode: int, body: bytes) -> bytes:
 
 def chunk(packed: bytes, size: int, crc: int) -> bytes:
     head = struct.pack("<QQQI", 0, 0, size, crc)
-    return record(6, head + struct.pack("<I", 4) + b"zstd" + struct.pack("<Q", len(packed)) + packed)
+    return record(
+        6, head + struct.pack("<I", 4) + b"zstd" + struct.pack("<Q", len(packed)) + packed
+    )
 
 
 def foreign() -> bytes:
     """A finished MCAP of somebody else."""
     header = record(1, struct.pack("<I", 4) + b"ros2" + struct.pack("<I", 3) + b"bag")
-    return MAGIC + header + record(15, struct.pack("<I", 0)) + record(2, struct.pack("<QQI", 0, 0, 0)) + MAGIC
+    return (
+        MAGIC
+        + header
+        + record(15, struct.pack("<I", 0))
+        + record(2, struct.pack("<QQI", 0, 0, 0))
+        + MAGIC
+    )
 
 
 def bomb(chunks: int) -> bytes:
@@ -160,7 +182,10 @@ HOSTILE = {
     "text": lambda: b"time_s,wx\n0,0\n" * 1000,
     "PNG": lambda: b"\x89PNG\r\n\x1a\n" + bytes(1000),
     "schema of rubbish": lambda: (
-        MAGIC + record(3, struct.pack("<HI", 1, 1) + b"a" + struct.pack("<I", 8) + b"protobuf" + b"\xff" * 9)
+        MAGIC
+        + record(
+            3, struct.pack("<HI", 1, 1) + b"a" + struct.pack("<I", 8) + b"protobuf" + b"\xff" * 9
+        )
     ),
 }
 
@@ -183,17 +208,29 @@ print(json.dumps(told))
 
 @pytest.fixture(scope="module")
 def told(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[int, str, str, float, int]]:
-    """What review says of each hostile file, with s of CPU and the peak of memory so far in kB; in a process of its own."""
+    """What review says of each hostile file, with s of CPU and the peak of memory so far in kB.
+
+    In a process of its own.
+    """
     folder = tmp_path_factory.mktemp("hostile")
     for name, make in HOSTILE.items():
         (folder / f"{name}.mcap").write_bytes(make())
-    run = subprocess.run([sys.executable, "-c", PROGRAM], cwd=folder, capture_output=True, text=True, timeout=300, check=True)
+    run = subprocess.run(
+        [sys.executable, "-c", PROGRAM],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=True,
+    )
     table: dict[str, tuple[int, str, str, float, int]] = json.loads(run.stdout)
     return table
 
 
 @pytest.mark.parametrize("name", HOSTILE)
-def test_a_hostile_file_ends_in_one_line(told: dict[str, tuple[int, str, str, float, int]], name: str) -> None:
+def test_a_hostile_file_ends_in_one_line(
+    told: dict[str, tuple[int, str, str, float, int]], name: str
+) -> None:
     status, out, err, _, peak = told[name]
     assert (status, out) == (1, "")
     assert len(err.splitlines()) == 1

@@ -15,7 +15,9 @@ def test_a_run_for_people(command: Command, tmp_path: Path) -> None:
     assert (ended.status, ended.err) == (0, "")
     assert re.search(r"^result +ok$", ended.out, re.MULTILINE)
     assert re.search(r"^log +short.mcap$", ended.out, re.MULTILINE)
-    assert re.search(r"^flight +0.45 s, 55 ticks, flown at \d+\.\d times real time$", ended.out, re.MULTILINE)
+    assert re.search(
+        r"^flight +0.45 s, 55 ticks, flown at \d+\.\d times real time$", ended.out, re.MULTILINE
+    )
     assert re.search(r"^specific force +m/s2 +\d", ended.out, re.MULTILINE)
     assert re.search(r"^wheel speed +\d+\.\d+ % of its limit$", ended.out, re.MULTILINE)
     assert len(read_log(tmp_path / "short.mcap").column("/motion", "time_s")) == 55
@@ -26,10 +28,21 @@ def test_a_run_for_programs(command: Command) -> None:
     ended = command("run", "s.toml", "-o", "other.mcap", "--json")
     assert (ended.status, ended.err) == (0, "")
     table = json.loads(ended.out)
-    assert (table["result"], table["reason"], table["log"], table["ticks"]) == ("ok", "", "other.mcap", 55)
+    assert (table["result"], table["reason"], table["log"], table["ticks"]) == (
+        "ok",
+        "",
+        "other.mcap",
+        55,
+    )
     assert table["duration_s"] == pytest.approx(0.45, abs=1e-6)
     assert table["violations"] == []
-    names = {"force_rms_m_s2", "direction_rms_rad", "rate_rms_rad_s", "wheels_limited_share", "stage_limited_share"}
+    names = {
+        "force_rms_m_s2",
+        "direction_rms_rad",
+        "rate_rms_rad_s",
+        "wheels_limited_share",
+        "stage_limited_share",
+    }
     assert names <= table["metrics"].keys()
 
 
@@ -45,7 +58,15 @@ def test_an_existing_log_is_kept_without_force(command: Command, tmp_path: Path)
 
 def test_settings(command: Command, tmp_path: Path) -> None:
     ended = command(
-        "run", "s.toml", "--set", "cueing.method=attitude", "--set", "duration_s=0.1", "--set", "name=other", "--json"
+        "run",
+        "s.toml",
+        "--set",
+        "cueing.method=attitude",
+        "--set",
+        "duration_s=0.1",
+        "--set",
+        "name=other",
+        "--json",
     )
     assert json.loads(ended.out)["ticks"] == 13
     log = read_log(tmp_path / "other.mcap")
@@ -54,7 +75,9 @@ def test_settings(command: Command, tmp_path: Path) -> None:
 
 
 def test_every_mistake_is_a_line_of_its_own(command: Command, tmp_path: Path) -> None:
-    (tmp_path / "s.toml").write_text(SCRIPT.replace("c1722", "c1723x").replace("atlas-2.9m", "atlas-3m"))
+    (tmp_path / "s.toml").write_text(
+        SCRIPT.replace("c1722", "c1723x").replace("atlas-2.9m", "atlas-3m")
+    )
     ended = command("run", "s.toml", "--set", "duration_s=-1", "--json")
     assert (ended.status, ended.out) == (2, "")
     lines = ended.err.splitlines()
@@ -75,13 +98,22 @@ def test_every_mistake_is_a_line_of_its_own(command: Command, tmp_path: Path) ->
         (["s.toml", "--set", "duration_s"], "KEY=VALUE"),
         (["s.toml", "--set", "vehicle.script=unitconversions"], "unitconversions"),
         (
-            ["s.toml", *(f"--set=platform.wheel.{i}.{key}" for i in (0, 1) for key in ("contact=[1,0,0]", "drive=[0,1,0]"))],
+            [
+                "s.toml",
+                *(
+                    f"--set=platform.wheel.{i}.{key}"
+                    for i in (0, 1)
+                    for key in ("contact=[1,0,0]", "drive=[0,1,0]")
+                ),
+            ],
             "kinematic slip condition",
         ),
     ],
     ids=lambda part: str(part)[:30],
 )
-def test_bad_input_writes_nothing(command: Command, tmp_path: Path, arguments: list[str], message: str) -> None:
+def test_bad_input_writes_nothing(
+    command: Command, tmp_path: Path, arguments: list[str], message: str
+) -> None:
     ended = command("run", *arguments)
     assert (ended.status, ended.out) == (2, "")
     assert message in ended.err
@@ -90,7 +122,9 @@ def test_bad_input_writes_nothing(command: Command, tmp_path: Path, arguments: l
 
 
 def test_a_vehicle_that_fails(command: Command, tmp_path: Path) -> None:
-    ended = command("run", "s.toml", "--set", "vehicle.script=cannonball", "--set", "duration_s=600", "--json")
+    ended = command(
+        "run", "s.toml", "--set", "vehicle.script=cannonball", "--set", "duration_s=600", "--json"
+    )
     assert ended.status == 1
     table = json.loads(ended.out)
     assert table["result"] == "vehicle_failed"
@@ -101,7 +135,9 @@ def test_a_vehicle_that_fails(command: Command, tmp_path: Path) -> None:
 
 def test_a_violation_is_a_finding(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
-        import_module("atlas_cueing.run.evaluate"), "violations", lambda _: ["wheel_speed_logged = 1.5 of the limit"]
+        import_module("atlas_cueing.run.evaluate"),
+        "violations",
+        lambda _: ["wheel_speed_logged = 1.5 of the limit"],
     )
     ended = command("run", "s.toml")
     assert ended.status == 1

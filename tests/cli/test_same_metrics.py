@@ -25,7 +25,8 @@ def check_same(run: str, review: str) -> dict[str, object]:
     """All metrics, their names in the same order; gives what the run told."""
     told, found = json.loads(run), json.loads(review)
     assert list(told["metrics"]) == list(found["metrics"])
-    assert json.dumps(told["metrics"]) == json.dumps(found["metrics"])  # which writes every bit, and NaN
+    # which writes every bit, and NaN
+    assert json.dumps(told["metrics"]) == json.dumps(found["metrics"])
     assert len(told["metrics"]) > 110
     assert told["ticks"] == found["ticks"]
     return dict(told)
@@ -33,25 +34,48 @@ def check_same(run: str, review: str) -> dict[str, object]:
 
 @pytest.mark.parametrize(
     "settings",
-    [(), ("cueing.method=attitude",), ("cueing.method=classical", "platform.preset=atlas-orthogonal"), ("duration_s=0.0001",)],
+    [
+        (),
+        ("cueing.method=attitude",),
+        ("cueing.method=classical", "platform.preset=atlas-orthogonal"),
+        ("duration_s=0.0001",),
+    ],
     ids=["blend", "attitude", "classical", "one tick"],
 )
 def test_a_run(command: Command, settings: tuple[str, ...]) -> None:
-    ran = command("run", "s.toml", "--json", *(word for setting in settings for word in ("--set", setting)))
+    ran = command(
+        "run", "s.toml", "--json", *(word for setting in settings for word in ("--set", setting))
+    )
     assert ran.status == 0
     check_same(ran.out, command("review", "short.mcap", "--json").out)
 
 
 def test_a_vehicle_that_fails(command: Command) -> None:
-    ran = command("run", "s.toml", "--json", "--set", "vehicle.script=cannonball", "--set", "duration_s=600")
+    ran = command(
+        "run", "s.toml", "--json", "--set", "vehicle.script=cannonball", "--set", "duration_s=600"
+    )
     told = check_same(ran.out, command("review", "short.mcap", "--json").out)
     assert (ran.status, told["result"]) == (1, "vehicle_failed")
 
 
 def test_a_live_run(command: Command, tmp_path: Path) -> None:
-    """In a process of its own, since it forks; a machine too busy for it may make a fault of the run."""
+    """In a process of its own, since it forks.
+
+    A machine too busy for it may make a fault of the run.
+    """
     (tmp_path / "s.toml").write_text(LIVE)
-    words = [PROGRAM, "live", "s.toml", "-o", "l.mcap", "--rate", "100", "--duration", "0.5", "--json"]
+    words = [
+        PROGRAM,
+        "live",
+        "s.toml",
+        "-o",
+        "l.mcap",
+        "--rate",
+        "100",
+        "--duration",
+        "0.5",
+        "--json",
+    ]
     ran = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert ran.returncode in (0, 1), ran.stderr
     check_same(ran.stdout, command("review", "l.mcap", "--json").out)

@@ -29,7 +29,9 @@ from .test_progress import Terminal
 START = [sys.executable, "-m", "atlas_cueing"]
 EVIL = "x\x1b]0;owned\x07\x1b[31m\r\nverdict  clean\u202e\u2066\u200b\u2028\x9b\x7f[red]<b>"
 HOSTILE = "\x1b\x07\r\n\t\x08\x7f\x9b\u202e\u2066\u200f\u200b\u2028\udce9\udcff[]=./a"
-WORDS = st.text(st.one_of(st.sampled_from(HOSTILE), st.characters(exclude_categories=())), min_size=1)
+WORDS = st.text(
+    st.one_of(st.sampled_from(HOSTILE), st.characters(exclude_categories=())), min_size=1
+)
 FULL = Path("/dev/full")
 needs_full = pytest.mark.skipif(not FULL.exists(), reason="needs /dev/full")
 
@@ -43,7 +45,12 @@ def environment(request: pytest.FixtureRequest) -> dict[str, str]:
     return {**os.environ, "PYTHONUNBUFFERED": request.param}
 
 
-COMMANDS = [["platform", "atlas-2.9m"], ["--help"], ["run", "--help"], ["platform", "atlas-2.9m", "--json"]]
+COMMANDS = [
+    ["platform", "atlas-2.9m"],
+    ["--help"],
+    ["run", "--help"],
+    ["platform", "atlas-2.9m", "--json"],
+]
 NO_SPACE = "error: standard output: No space left on device\n"
 
 
@@ -51,31 +58,47 @@ NO_SPACE = "error: standard output: No space left on device\n"
 @pytest.mark.parametrize("words", COMMANDS, ids=" ".join)
 def test_results_onto_a_full_disk(words: Sequence[str], environment: dict[str, str]) -> None:
     with FULL.open("w") as full:
-        ended = subprocess.run([*START, *words], stdout=full, stderr=subprocess.PIPE, text=True, env=environment)
+        ended = subprocess.run(
+            [*START, *words], stdout=full, stderr=subprocess.PIPE, text=True, env=environment
+        )
     assert (ended.returncode, ended.stderr) == (1, NO_SPACE)
 
 
 @needs_full
-def test_a_log_is_kept_though_its_figures_cannot_be_printed(command: Command, tmp_path: Path) -> None:
+def test_a_log_is_kept_though_its_figures_cannot_be_printed(
+    command: Command, tmp_path: Path
+) -> None:
     with FULL.open("w") as full:
-        ended = subprocess.run([*START, "run", "s.toml"], cwd=tmp_path, stdout=full, stderr=subprocess.PIPE, text=True)
+        ended = subprocess.run(
+            [*START, "run", "s.toml"], cwd=tmp_path, stdout=full, stderr=subprocess.PIPE, text=True
+        )
     assert (ended.returncode, ended.stderr) == (1, NO_SPACE)
     assert command("review", "short.mcap").status == 0
 
 
 @needs_full
-@pytest.mark.parametrize(("words", "status"), [(["platform", "atlas-2.9m"], 0), (["platform", "x"], 2), (["nix"], 2)])
-def test_messages_onto_a_full_disk(words: Sequence[str], status: int, environment: dict[str, str]) -> None:
+@pytest.mark.parametrize(
+    ("words", "status"), [(["platform", "atlas-2.9m"], 0), (["platform", "x"], 2), (["nix"], 2)]
+)
+def test_messages_onto_a_full_disk(
+    words: Sequence[str], status: int, environment: dict[str, str]
+) -> None:
     with FULL.open("w") as full:
-        ended = subprocess.run([*START, *words], stdout=subprocess.DEVNULL, stderr=full, env=environment)
+        ended = subprocess.run(
+            [*START, *words], stdout=subprocess.DEVNULL, stderr=full, env=environment
+        )
     assert ended.returncode == status
 
 
 @pytest.mark.parametrize("words", COMMANDS, ids=" ".join)
-def test_a_reader_that_is_gone_is_told_nothing(words: Sequence[str], environment: dict[str, str]) -> None:
+def test_a_reader_that_is_gone_is_told_nothing(
+    words: Sequence[str], environment: dict[str, str]
+) -> None:
     reading, writing = os.pipe()
     os.close(reading)
-    ended = subprocess.run([*START, *words], stdout=writing, stderr=subprocess.PIPE, text=True, env=environment)
+    ended = subprocess.run(
+        [*START, *words], stdout=writing, stderr=subprocess.PIPE, text=True, env=environment
+    )
     os.close(writing)
     assert (ended.returncode, ended.stderr) == (1, "")
 
@@ -84,7 +107,11 @@ def test_closed_streams() -> None:
     ends = []
     for closing in (">&-", "2>&-", "<&- >&- 2>&-"):
         script = f'"$@" {closing}'
-        ended = subprocess.run(["sh", "-c", script, "sh", *START, "platform", "atlas-2.9m"], capture_output=True, text=True)
+        ended = subprocess.run(
+            ["sh", "-c", script, "sh", *START, "platform", "atlas-2.9m"],
+            capture_output=True,
+            text=True,
+        )
         ends.append((ended.returncode, bool(ended.stdout), ended.stderr))
     told = "error: standard output: Bad file descriptor\n"
     assert ends == [(1, False, told), (0, True, ""), (1, False, "")]
@@ -125,7 +152,10 @@ def test_no_stream_at_all() -> None:
 
 
 @settings(max_examples=60)
-@given(WORDS.filter(lambda word: "\0" not in word), st.sampled_from(["file", "extra", "option", "key", "value", "command"]))
+@given(
+    WORDS.filter(lambda word: "\0" not in word),
+    st.sampled_from(["file", "extra", "option", "key", "value", "command"]),
+)
 def test_no_word_of_the_command_line_commands_the_terminal(word: str, role: str) -> None:
     words = {
         "file": ["review", f"./{word}"],
@@ -152,7 +182,9 @@ def evil(command: Command, tmp_path: Path) -> Path:
     vehicle, pipeline = prepare(load_scenario(tmp_path / "s.toml"), recorded_vehicle(log))
     metadata = dict.fromkeys(("scenario", "method", "platform"), EVIL)
     new = tmp_path / "evil.mcap"
-    recorder = McapRecorder(new, head_S=(0.0, 0.0, 0.0), metadata=metadata, attachments=log.attachments)
+    recorder = McapRecorder(
+        new, head_S=(0.0, 0.0, 0.0), metadata=metadata, attachments=log.attachments
+    )
     recorder.append(pipeline.step(vehicle.state))
     while vehicle.advance():
         recorder.append(pipeline.step(vehicle.state))
@@ -173,7 +205,9 @@ def test_a_hostile_log_commands_nothing(command: Command, evil: Path, tmp_path: 
         assert "This is a bug" not in ended.err
         assert is_safe(ended.out)
         assert is_safe(ended.err)
-        assert not any(line.startswith("verdict  clean") for line in f"{ended.out}\n{ended.err}".split("\n"))
+        assert not any(
+            line.startswith("verdict  clean") for line in f"{ended.out}\n{ended.err}".split("\n")
+        )
     for page in ("a.html", "c.html"):
         own = own_part((tmp_path / page).read_text())
         assert "\\x1b]0;owned" in own

@@ -25,7 +25,11 @@ RESULT = RunResult(
             "turns_pitch": -1.0,
             "turns_yaw": 0.0,
         },
-        {"wheel_speed_logged": 0.25, "wheel_jerk_difference": 0.5, "wheel_jerk_second_difference": 1.0},
+        {
+            "wheel_speed_logged": 0.25,
+            "wheel_jerk_difference": 0.5,
+            "wheel_jerk_second_difference": 1.0,
+        },
         ("too fast",),
     ),
 )

@@ -27,8 +27,12 @@ def users(command: Command, tmp_path: Path) -> Command:
     return command
 
 
-@pytest.mark.parametrize("arguments", [["run", "s.toml"], ["batch", "s.toml", "-o", "out"]], ids=["run", "batch"])
-def test_without_it_nothing_flies_and_nothing_is_written(users: Command, tmp_path: Path, arguments: list[str]) -> None:
+@pytest.mark.parametrize(
+    "arguments", [["run", "s.toml"], ["batch", "s.toml", "-o", "out"]], ids=["run", "batch"]
+)
+def test_without_it_nothing_flies_and_nothing_is_written(
+    users: Command, tmp_path: Path, arguments: list[str]
+) -> None:
     ended = users(*arguments)
     assert (ended.status, ended.out) == (2, "")
     (line,) = ended.err.splitlines()
@@ -42,12 +46,18 @@ def test_with_it_run_and_batch_fly_the_same(users: Command, tmp_path: Path) -> N
     ended = users("batch", "s.toml", "-o", "out", "--jobs", "1", "--trust-models", "--json")
     assert ended.status == 0, ended.err
     (row,) = json.loads(ended.out)["table"]
-    assert (tmp_path / "out" / f"{row['run']}.mcap").read_bytes() == (tmp_path / "one.mcap").read_bytes()
+    assert (tmp_path / "out" / f"{row['run']}.mcap").read_bytes() == (
+        tmp_path / "one.mcap"
+    ).read_bytes()
 
 
-def test_a_log_is_cued_anew_without_it_and_flown_again_with_it(users: Command, tmp_path: Path) -> None:
+def test_a_log_is_cued_anew_without_it_and_flown_again_with_it(
+    users: Command, tmp_path: Path
+) -> None:
     assert users("run", "s.toml", "--trust-models", "-o", "one.mcap").status == 0
-    assert users("recue", "one.mcap", "-o", "again.mcap", "--set", "cueing.method=force").status == 0
+    assert (
+        users("recue", "one.mcap", "-o", "again.mcap", "--set", "cueing.method=force").status == 0
+    )
     again = tmp_path / "again"
     again.mkdir()
     for name, content in read_log(tmp_path / "one.mcap").attachments.items():
@@ -92,11 +102,15 @@ SCRIPTED = """<runscript name="own">
 def own(request: pytest.FixtureRequest, command: Command, tmp_path: Path) -> Command:
     """The command beside a scenario `s.toml` whose aircraft lies there, flown by inputs or by a script."""
     shutil.copytree(own_aircraft()["c172x"].parent, tmp_path / "aircraft" / "mymodel")
-    (tmp_path / "aircraft" / "mymodel" / "c172x.xml").rename(tmp_path / "aircraft" / "mymodel" / "mymodel.xml")
+    (tmp_path / "aircraft" / "mymodel" / "c172x.xml").rename(
+        tmp_path / "aircraft" / "mymodel" / "mymodel.xml"
+    )
     (tmp_path / "engine").mkdir()
     shutil.copy(root() / "engine" / "eng_io320.xml", tmp_path / "engine")
     (tmp_path / "mine.xml").write_text(SCRIPTED)
-    (tmp_path / "s.toml").write_text(OWN if request.param == "aircraft" else SCRIPT.replace("c1722", "mine.xml"))
+    (tmp_path / "s.toml").write_text(
+        OWN if request.param == "aircraft" else SCRIPT.replace("c1722", "mine.xml")
+    )
     return command
 
 
@@ -105,16 +119,23 @@ def test_an_aircraft_of_ones_own_needs_trust_too(own: Command, tmp_path: Path) -
     for command in (["run", "s.toml"], ["batch", "s.toml", "-o", "out"], ["live", "s.toml"]):
         ended = own(*command)
         assert (ended.status, ended.out, ended.err.count("\n")) == (2, "", 1)
-        assert "is not one of JSBSim's own, and it is a program; if you trust whoever wrote it" in ended.err
+        assert (
+            "is not one of JSBSim's own, and it is a program; if you trust whoever wrote it"
+            in ended.err
+        )
     assert set(tmp_path.rglob("*")) == before
 
 
-def test_an_aircraft_of_ones_own_flies_in_run_and_batch_and_from_its_log(own: Command, tmp_path: Path) -> None:
+def test_an_aircraft_of_ones_own_flies_in_run_and_batch_and_from_its_log(
+    own: Command, tmp_path: Path
+) -> None:
     assert own("run", "s.toml", "--trust-models", "-o", "one.mcap").status == 0
     ended = own("batch", "s.toml", "-o", "out", "--jobs", "1", "--trust-models", "--json")
     assert ended.status == 0, ended.err
     (row,) = json.loads(ended.out)["table"]
-    assert (tmp_path / "out" / f"{row['run']}.mcap").read_bytes() == (tmp_path / "one.mcap").read_bytes()
+    assert (tmp_path / "out" / f"{row['run']}.mcap").read_bytes() == (
+        tmp_path / "one.mcap"
+    ).read_bytes()
     for name, content in read_log(tmp_path / "one.mcap").attachments.items():
         (tmp_path / "again" / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / "again" / name).write_bytes(content)
@@ -129,7 +150,11 @@ def test_cueing_anew_needs_no_model(own: Command, tmp_path: Path) -> None:
         shutil.rmtree(tmp_path / gone)
     assert own("recue", "one.mcap", "-o", "again.mcap", "--set", "cueing.method=force").status == 0
     again, one = (read_log(tmp_path / f"{name}.mcap").attachments for name in ("again", "one"))
-    assert {name: again[name] for name in one if "/" in name} == {name: one[name] for name in one if "/" in name} != {}
+    assert (
+        {name: again[name] for name in one if "/" in name}
+        == {name: one[name] for name in one if "/" in name}
+        != {}
+    )
     assert own("review", "again.mcap").status == 0
 
 
@@ -138,6 +163,8 @@ def test_a_changed_model_is_another_run(own: Command, tmp_path: Path) -> None:
     for horsepower in ("160.0", "170.0"):
         engine = tmp_path / "engine" / "eng_io320.xml"
         engine.write_text(engine.read_text().replace("160.0  </maxhp>", f"{horsepower}  </maxhp>"))
-        ended = own("batch", "s.toml", "-o", f"out{horsepower}", "--jobs", "1", "--trust-models", "--json")
+        ended = own(
+            "batch", "s.toml", "-o", f"out{horsepower}", "--jobs", "1", "--trust-models", "--json"
+        )
         ids.add(json.loads(ended.out)["table"][0]["run"])
     assert len(ids) == 2

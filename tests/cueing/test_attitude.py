@@ -53,7 +53,9 @@ def off(q_WS: Quat, truth: Rotation) -> float:
 @pytest.mark.parametrize("heading", [0.0, 1.0, -2.5, pi])
 def test_heading_is_removed_at_the_start_and_nothing_else(heading: float) -> None:
     q = from_euler(heading, 0.3, -0.7)
-    q_WS, w = AttitudeRotation(0.01, AttitudeParameters()).step(VehicleState(0.0, q, (0.0, 0.0, 0.0), LEVEL))
+    q_WS, w = AttitudeRotation(0.01, AttitudeParameters()).step(
+        VehicleState(0.0, q, (0.0, 0.0, 0.0), LEVEL)
+    )
     assert off(q_WS, expected(q, heading)) < 1e-9
     assert w == (0.0, 0.0, 0.0)
 
@@ -64,7 +66,9 @@ def test_body_rates_are_turned_into_the_base_frame() -> None:
     _, w = AttitudeRotation(0.01, AttitudeParameters()).step(vehicle)
     assert w == pytest.approx((0.1, 0.0, 0.4), abs=1e-12)
     upright = VehicleState(0.0, IDENTITY, (0.1, 0.2, 0.4), LEVEL)
-    assert AttitudeRotation(0.01, AttitudeParameters()).step(upright)[1] == pytest.approx((0.1, -0.2, -0.4))
+    assert AttitudeRotation(0.01, AttitudeParameters()).step(upright)[1] == pytest.approx(
+        (0.1, -0.2, -0.4)
+    )
 
 
 def test_a_thousand_turns_about_a_tilted_axis() -> None:
@@ -103,13 +107,21 @@ def test_a_jump_is_not_chased_and_taken_back(jump: float) -> None:
     q1 = exp(scale(jump / 3.0, (2.0, -1.0, 2.0)))
     for vehicle in standing(IDENTITY, LEVEL, dt, 30):
         before = method.step(vehicle)[0]
-    path = [method.step(vehicle) for vehicle in standing(q1, LEVEL, dt, int((jump / radians(3.0) + 10.0) / dt))]
-    steps = [geodesic(a, b) for a, b in zip([before, *(q for q, _ in path)], [q for q, _ in path], strict=False)]
+    path = [
+        method.step(vehicle)
+        for vehicle in standing(q1, LEVEL, dt, int((jump / radians(3.0) + 10.0) / dt))
+    ]
+    steps = [
+        geodesic(a, b)
+        for a, b in zip([before, *(q for q, _ in path)], [q for q, _ in path], strict=False)
+    ]
     assert max(steps) <= radians(3.0) * dt * (1.0 + 1e-9)
     assert max(norm(w) for _, w in path) <= radians(3.0) * (1.0 + 1e-9)
     assert max(norm(w) for _, w in path) > radians(2.99)
     w = np.array([w for _, w in path])
-    assert np.max(np.linalg.norm(np.diff(w, axis=0), axis=1)) / dt <= 2.0 * radians(3.0) / (np.e * 0.25) * (1.0 + 1e-6)
+    assert np.max(np.linalg.norm(np.diff(w, axis=0), axis=1)) / dt <= 2.0 * radians(3.0) / (
+        np.e * 0.25
+    ) * (1.0 + 1e-6)
     assert off(path[-1][0], expected(q1, 0.0)) < 1e-3
 
 
@@ -130,7 +142,11 @@ def test_gains_work_cabin_axis_by_cabin_axis() -> None:
     path = [exp((0.01 * i, 0.0, 0.0)) for i in range(101)]
     path += [multiply(path[-1], exp((0.0, 0.01 * i, 0.0))) for i in range(1, 101)]
     for i in range(200):
-        method.step(VehicleState(i * dt, path[i], (1.0 if i <= 100 else 0.0, 1.0 if i > 100 else 0.0, 0.0), LEVEL))
+        method.step(
+            VehicleState(
+                i * dt, path[i], (1.0 if i <= 100 else 0.0, 1.0 if i > 100 else 0.0, 0.0), LEVEL
+            )
+        )
     for vehicle in standing(path[200], LEVEL, dt, 2000):
         q_WS, _ = method.step(vehicle)
     assert off(q_WS, expected(exp((1.0, 0.0, 0.0)), 0.0)) < 1e-6
@@ -149,7 +165,9 @@ def test_a_level_turn_is_felt_as_pinned(row: dict[str, float]) -> None:
 
 @pytest.mark.parametrize("row", AT_REST, ids=lambda row: f"{row['theta_deg']},{row['phi_deg']}")
 @pytest.mark.parametrize("heading", [0.0, 2.0])
-def test_a_vehicle_at_rest_in_any_attitude_is_felt_as_pinned(row: dict[str, float], heading: float) -> None:
+def test_a_vehicle_at_rest_in_any_attitude_is_felt_as_pinned(
+    row: dict[str, float], heading: float
+) -> None:
     method = AttitudeRotation(0.01, AttitudeParameters())
     q = from_euler(heading, radians(row["theta_deg"]), radians(row["phi_deg"]))
     for vehicle in standing(q, LEVEL, 0.01, 50):
@@ -159,7 +177,12 @@ def test_a_vehicle_at_rest_in_any_attitude_is_felt_as_pinned(row: dict[str, floa
 @pytest.mark.parametrize("late", [0.0, 0.5])
 def test_rates_half_a_tick_off_the_attitude_leave_half_a_tick_of_turn(late: float) -> None:
     """JSBSim's attitude lags its rates: in a roll that starts and stops the error is dt/2 |w| at most, and goes."""
-    dt, method, worst, q = 1.0 / 120.0, AttitudeRotation(1.0 / 120.0, AttitudeParameters()), 0.0, IDENTITY
+    dt, method, worst, q = (
+        1.0 / 120.0,
+        AttitudeRotation(1.0 / 120.0, AttitudeParameters()),
+        0.0,
+        IDENTITY,
+    )
     for i in range(2400):
         w = 2.0 * np.sin(0.02 * i) ** 2 if i < 943 else 0.0
         q = exp((integral(0.02, 2.0, i - late), 0.0, 0.0))

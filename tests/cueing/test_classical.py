@@ -49,9 +49,16 @@ def response(system: lti, signal: Array, t: Array) -> Array:
     return np.asarray(lsim(system, signal, t)[1])
 
 
-def ride(parameters: ClassicalParameters, rates: Input, forces: Input, seconds: float, dt: float = DT) -> Ride:
+def ride(
+    parameters: ClassicalParameters, rates: Input, forces: Input, seconds: float, dt: float = DT
+) -> Ride:
     """Time, angles (roll, pitch, yaw) and w_WS_W of a vehicle whose rates and forces are given over time."""
-    method, t, angles, w = ClassicalRotation(dt, parameters), dt * np.arange(int(seconds / dt)), [], []
+    method, t, angles, w = (
+        ClassicalRotation(dt, parameters),
+        dt * np.arange(int(seconds / dt)),
+        [],
+        [],
+    )
     for now in t.tolist():
         q_WS, rate = method.step(VehicleState(now, IDENTITY, rates(now), forces(now)))
         angles.append(angles_of(q_WS))
@@ -81,8 +88,13 @@ def level(_: float) -> Vec3:
 
 
 @pytest.mark.parametrize(("axis", "gain", "omega"), [(0, 0.6, 1.0), (1, 0.6, 0.8), (2, 0.6, 1.0)])
-def test_each_rotation_channel_is_its_transfer_function(axis: int, gain: float, omega: float) -> None:
-    """TU Delft: gain 0.6; 1.0, 0.8, 1.0 rad/s, critically damped. One axis at a time the angle is exact at any size."""
+def test_each_rotation_channel_is_its_transfer_function(
+    axis: int, gain: float, omega: float
+) -> None:
+    """TU Delft: gain 0.6; 1.0, 0.8, 1.0 rad/s, critically damped.
+
+    One axis at a time the angle is exact at any size.
+    """
     t, angles, _ = ride(FREE, lambda t: about(axis, 0.4 * sin(1.3 * t)), level, 20.0)
     truth = response(washout(omega), gain * 0.4 * np.sin(1.3 * t), t)
     assert np.max(np.abs(truth)) > 0.08
@@ -91,7 +103,9 @@ def test_each_rotation_channel_is_its_transfer_function(axis: int, gain: float, 
 
 
 @pytest.mark.parametrize(("axis", "force", "angle", "sign"), [(0, 0, 1, 1.0), (1, 1, 0, -1.0)])
-def test_each_tilt_channel_is_its_transfer_function(axis: int, force: int, angle: int, sign: float) -> None:
+def test_each_tilt_channel_is_its_transfer_function(
+    axis: int, force: int, angle: int, sign: float
+) -> None:
     """0.6 f behind 4 / (s + 2)^2 becomes the angle whose sine it is of gravity, while below 3 deg/s."""
 
     def push(t: float) -> Vec3:
@@ -117,21 +131,29 @@ def test_all_channels_together_are_the_sum_for_small_angles() -> None:
         20.0,
     )
     tilts = [response(low_pass(2.0), 0.6 * 10.0 * k * np.sin(f * t), t) / G for f in (0.9, 0.4)]
-    washed = [response(washout(o), 0.6 * k * np.sin(f * t), t) for o, f in ((1.0, 1.1), (0.8, 0.7), (1.0, 2.0))]
+    washed = [
+        response(washout(o), 0.6 * k * np.sin(f * t), t)
+        for o, f in ((1.0, 1.1), (0.8, 0.7), (1.0, 2.0))
+    ]
     truth = np.stack([washed[0] - tilts[0], washed[1] + tilts[1], washed[2]], axis=1)
     assert np.min(np.max(np.abs(truth), axis=0)) > 2e-4
     assert np.max(np.abs(angles - truth)) < 4e-6
 
 
 def test_the_stage_of_the_set_is_its_transfer_function() -> None:
-    """0.6, 0.6, 0.5 of the force, 0.8, 1, 1 rad/s, 0.2 rad/s more on z; behind the low-pass of the demand, which is ours."""
+    """0.6, 0.6, 0.5 of the force, 0.8, 1, 1 rad/s, 0.2 rad/s more on z.
+
+    Behind the low-pass of the demand, which is ours.
+    """
     dt, k = 1.0 / 500.0, 0.01
     cueing = build_cueing(ClassicalParameters(tilt_gain=ZERO), CLASSICAL_STAGE, HUGE, ZERO, dt)
     t, a = dt * np.arange(10_000), []
     for now in t.tolist():
         f = (k * sin(1.2 * now), -k * sin(0.8 * now), -G - k * sin(1.7 * now))
         a.append(cueing.step(VehicleState(now, IDENTITY, ZERO, f)).a_WS_W)
-    for axis, (gain, omega, more, f) in enumerate([(0.6, 0.8, 0.0, 1.2), (0.6, 1.0, 0.0, 0.8), (0.5, 1.0, 0.2, 1.7)]):
+    for axis, (gain, omega, more, f) in enumerate(
+        [(0.6, 0.8, 0.0, 1.2), (0.6, 1.0, 0.0, 0.8), (0.5, 1.0, 0.2, 1.7)]
+    ):
         poles = np.polymul(np.polymul([1.0, omega], [1.0, omega]), [1.0 / (10.0 * pi), 1.0])
         high = lti(np.polymul([1.0, 0.0, 0.0], [1.0, 0.0]), np.polymul(poles, [1.0, more]))
         truth = response(high, gain * k * np.sin(f * t), t)
@@ -155,7 +177,10 @@ def test_the_set_is_that_of_tu_delft() -> None:
 @pytest.mark.parametrize("limit", [radians(25.0), radians(1e6), inf])
 @pytest.mark.parametrize("axis", [0, 1, 2])
 def test_every_angle_returns_to_nothing_for_a_constant_rate(axis: int, limit: float) -> None:
-    """At the start it is washed out already; from a rate that sets in later it takes some ten seconds."""
+    """At the start it is washed out already.
+
+    From a rate that sets in later it takes some ten seconds.
+    """
     parameters = ClassicalParameters(angle_limit=limit)
     _, at_once, w = ride(parameters, lambda _: about(axis, 0.3), level, 5.0, 0.01)
     assert np.max(np.abs(at_once)) < 1e-9
@@ -173,7 +198,9 @@ def test_a_lasting_forward_force_pitches_up_and_is_felt_forward(f: float) -> Non
     """asin(0.6 f / g): the rider leans back, and feels 0.6 f where the vehicle's would feel f."""
     method = ClassicalRotation(0.02, FREE)
     for i in range(3000):
-        q_WS, w = method.step(VehicleState(i * 0.02, IDENTITY, ZERO, (0.0 if i < 50 else f, 0.0, -G)))
+        q_WS, w = method.step(
+            VehicleState(i * 0.02, IDENTITY, ZERO, (0.0 if i < 50 else f, 0.0, -G))
+        )
     assert angles_of(q_WS) == pytest.approx((0.0, asin(0.6 * f / G), 0.0), abs=1e-9)
     assert flip(rotate(conjugate(q_WS), (0.0, 0.0, G)))[0] == pytest.approx(0.6 * f)
     assert norm(w) < 1e-9
@@ -183,7 +210,9 @@ def test_a_lasting_forward_force_pitches_up_and_is_felt_forward(f: float) -> Non
 def test_a_lasting_force_to_the_right_rolls_left_and_is_felt_to_the_right(f: float) -> None:
     method = ClassicalRotation(0.02, FREE)
     for i in range(3000):
-        q_WS, _ = method.step(VehicleState(i * 0.02, IDENTITY, ZERO, (0.0, 0.0 if i < 50 else f, -G)))
+        q_WS, _ = method.step(
+            VehicleState(i * 0.02, IDENTITY, ZERO, (0.0, 0.0 if i < 50 else f, -G))
+        )
     assert angles_of(q_WS) == pytest.approx((-asin(0.6 * f / G), 0.0, 0.0), abs=1e-9)
     assert flip(rotate(conjugate(q_WS), (0.0, 0.0, G)))[1] == pytest.approx(0.6 * f)
 
@@ -217,7 +246,9 @@ def test_the_tilt_never_turns_faster_than_its_rate(rate: float, dt: float) -> No
 
 def test_the_cabin_s_own_rate_from_tilt_alone_stays_below_the_threshold() -> None:
     """Of the whole method, in one axis; two at once may add up to the root of two of it."""
-    _, _, w = ride(ClassicalParameters(), still, lambda t: (8.0 * sin(2.0 * t), 0.0, -G), 10.0, 0.01)
+    _, _, w = ride(
+        ClassicalParameters(), still, lambda t: (8.0 * sin(2.0 * t), 0.0, -G), 10.0, 0.01
+    )
     assert np.max(np.linalg.norm(w, axis=1)) <= radians(3.0) * (1.0 + 1e-9)
     assert np.max(np.linalg.norm(w, axis=1)) > radians(2.5)
 
@@ -230,7 +261,9 @@ def test_every_angle_keeps_its_limit_and_reaches_it_smoothly(limit: float) -> No
     for i in range(4000):
         if i % 100 == 0:
             w, f = 3.0 * random.standard_normal(3), 20.0 * random.standard_normal(3)
-        q_WS, _ = method.step(VehicleState(0.02 * i, IDENTITY, tuple(w.tolist()), tuple(f.tolist())))
+        q_WS, _ = method.step(
+            VehicleState(0.02 * i, IDENTITY, tuple(w.tolist()), tuple(f.tolist()))
+        )
         reached = np.maximum(reached, np.abs(np.degrees(angles_of(q_WS))))
     assert np.all(reached <= limit * (1.0 + 1e-9))
     assert np.all(reached > 0.6 * limit)
@@ -238,13 +271,23 @@ def test_every_angle_keeps_its_limit_and_reaches_it_smoothly(limit: float) -> No
 
 def test_the_limit_is_a_hyperbolic_tangent_and_a_million_degrees_are_none() -> None:
     sustained = [
-        angles_of([m.step(VehicleState(0.1 * i, IDENTITY, ZERO, (8.0, 0.0, -G))) for i in range(20)][-1][0])[1]
-        for m in (ClassicalRotation(0.1, ClassicalParameters(angle_limit=radians(x))) for x in (25.0, 1e6))
+        angles_of(
+            [m.step(VehicleState(0.1 * i, IDENTITY, ZERO, (8.0, 0.0, -G))) for i in range(20)][-1][
+                0
+            ]
+        )[1]
+        for m in (
+            ClassicalRotation(0.1, ClassicalParameters(angle_limit=radians(x))) for x in (25.0, 1e6)
+        )
     ]
     asked = asin(0.6 * 8.0 / G)
-    assert sustained == pytest.approx([radians(25.0) * tanh(asked / radians(25.0)), asked], abs=1e-6)
+    assert sustained == pytest.approx(
+        [radians(25.0) * tanh(asked / radians(25.0)), asked], abs=1e-6
+    )
     parameters = (ClassicalParameters(angle_limit=x) for x in (radians(1e6), inf))
-    limited, free = (ride(each, lambda t: about(0, 2.0 * sin(t)), level, 10.0, 0.02)[1] for each in parameters)
+    limited, free = (
+        ride(each, lambda t: about(0, 2.0 * sin(t)), level, 10.0, 0.02)[1] for each in parameters
+    )
     assert np.max(np.abs(limited - free)) < 1e-6
     assert np.max(np.abs(free)) > 0.5
 
@@ -280,5 +323,9 @@ def test_a_washed_out_angle_by_the_step_response(omega: float) -> None:
 def test_a_tumbling_vehicle_is_finite_where_euler_rates_have_no_bound() -> None:
     method = ClassicalRotation(0.01, ClassicalParameters(angle_limit=inf))
     for i in range(3000):
-        q_WS, w = method.step(VehicleState(0.01 * i, IDENTITY, (0.3, 8.0 * sin(0.2 * 0.01 * i), 2.0), (30.0, 0.0, 0.0)))
+        q_WS, w = method.step(
+            VehicleState(
+                0.01 * i, IDENTITY, (0.3, 8.0 * sin(0.2 * 0.01 * i), 2.0), (30.0, 0.0, 0.0)
+            )
+        )
         assert np.all(np.isfinite([*q_WS, *w]))

@@ -28,7 +28,12 @@ from atlas_cueing.signals import Cue, StageLimits, VehicleState
 from .vehicles import LEVEL, manoeuvring, standing, wild
 
 LIMITS = StageLimits((1.0, 1.0, 0.75), (1.5, 1.5, 1.2), (6.0, 6.0, 5.0), (60.0, 60.0, 50.0))
-METHODS: list[MethodParameters] = [AttitudeParameters(), BlendParameters(), ForceParameters(), ClassicalParameters()]
+METHODS: list[MethodParameters] = [
+    AttitudeParameters(),
+    BlendParameters(),
+    ForceParameters(),
+    ClassicalParameters(),
+]
 NO_LIMIT = ClassicalParameters(angle_limit=inf)
 Sequence = list[tuple[Quat, Vec3, Vec3]]
 
@@ -52,7 +57,11 @@ def check(cue: Cue) -> None:
     numbers = [*cue.q_WS, *cue.w_WS_W, *cue.p_WS_W, *cue.v_WS_W, *cue.a_WS_W]
     assert np.all(np.isfinite(numbers)), cue
     assert sum(x * x for x in cue.q_WS) == pytest.approx(1.0, abs=1e-9)
-    for state, limit in ((cue.p_WS_W, LIMITS.travel), (cue.v_WS_W, LIMITS.speed), (cue.a_WS_W, LIMITS.acceleration)):
+    for state, limit in (
+        (cue.p_WS_W, LIMITS.travel),
+        (cue.v_WS_W, LIMITS.speed),
+        (cue.a_WS_W, LIMITS.acceleration),
+    ):
         assert np.all(np.abs(state) <= limit)
 
 
@@ -81,7 +90,9 @@ def test_absurd_states_give_a_finite_cue(method: MethodParameters, sequence: Seq
 def test_any_finite_force_gives_a_finite_cue(method: MethodParameters, huge: float) -> None:
     """A recorded log may hold anything that is a number."""
     for f_B in ((huge, 0.0, 0.0), (huge, -huge, huge), (0.0, 0.0, huge)):
-        for cue in ask(method, [(IDENTITY, ZERO, LEVEL), (IDENTITY, ZERO, f_B), (IDENTITY, ZERO, LEVEL)], 0.01):
+        for cue in ask(
+            method, [(IDENTITY, ZERO, LEVEL), (IDENTITY, ZERO, f_B), (IDENTITY, ZERO, LEVEL)], 0.01
+        ):
             check(cue)
 
 
@@ -94,13 +105,20 @@ def turned_away(method: MethodParameters, dt: float, push: float = 1.0) -> float
         assert np.dot(before.q_WS, now.q_WS) > 0.9
         q = Rotation.from_rotvec(0.5 * dt * np.add(before.w_WS_W, now.w_WS_W)) * q
         if i % 10 == 0:
-            worst = max(worst, float((q.inv() * Rotation.from_quat(np.roll(now.q_WS, -1))).magnitude()))
+            worst = max(
+                worst, float((q.inv() * Rotation.from_quat(np.roll(now.q_WS, -1))).magnitude())
+            )
     return worst
 
 
 @pytest.mark.parametrize("method", [*METHODS[:3], ClassicalParameters(tilt_gain=ZERO)], ids=name)
-def test_the_orientation_is_the_integral_of_the_rate_to_second_order(method: MethodParameters) -> None:
-    """Half the tick, a quarter of the difference; whoever feeds the rate forward gets the orientation."""
+def test_the_orientation_is_the_integral_of_the_rate_to_second_order(
+    method: MethodParameters,
+) -> None:
+    """Half the tick, a quarter of the difference.
+
+    Whoever feeds the rate forward gets the orientation.
+    """
     coarse, fine = turned_away(method, 1.0 / 50.0), turned_away(method, 1.0 / 100.0)
     assert coarse < 2e-3
     assert coarse / fine > 3.0
@@ -108,17 +126,25 @@ def test_the_orientation_is_the_integral_of_the_rate_to_second_order(method: Met
 
 def test_a_tilt_whose_rate_jumps_is_the_integral_of_the_rate_to_first_order() -> None:
     """`classical` limits the rate of its tilt and not the acceleration: each jump of 3 deg/s is off by half a tick of it."""
-    assert turned_away(ClassicalParameters(rotation_gain=ZERO), 1.0 / 100.0, 3.0) < 0.5 * 0.01 * 2.0 * radians(3.0) * 2.0
+    assert (
+        turned_away(ClassicalParameters(rotation_gain=ZERO), 1.0 / 100.0, 3.0)
+        < 0.5 * 0.01 * 2.0 * radians(3.0) * 2.0
+    )
 
 
 @pytest.mark.parametrize("method", METHODS, ids=name)
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_both_signs_of_the_vehicle_s_quaternion_are_one_attitude(method: MethodParameters, sign: float) -> None:
+def test_both_signs_of_the_vehicle_s_quaternion_are_one_attitude(
+    method: MethodParameters, sign: float
+) -> None:
     """Also where the sign changes in mid-flight."""
     plain, flipping = make(method, 0.02), make(method, 0.02)
     for i, vehicle in enumerate(manoeuvring(0.02, 6.0)):
         q = tuple((sign if i % 7 else -sign) * x for x in vehicle.q_NB)
-        one, other = plain.step(vehicle), flipping.step(VehicleState(vehicle.time, q, vehicle.w_NB_B, vehicle.f_B))  # type: ignore[arg-type]
+        one, other = (
+            plain.step(vehicle),
+            flipping.step(VehicleState(vehicle.time, q, vehicle.w_NB_B, vehicle.f_B)),
+        )  # type: ignore[arg-type]
         assert abs(np.dot(one.q_WS, other.q_WS)) == pytest.approx(1.0, abs=1e-12)
         assert one.w_WS_W == pytest.approx(other.w_WS_W, abs=1e-6)
 
@@ -136,19 +162,28 @@ def test_a_vehicle_at_rest_asks_for_nothing(method: MethodParameters) -> None:
 def test_the_methods_differ_where_they_should() -> None:
     """Banked with the force along the seat: `attitude` banks, the others stand upright."""
     banked = VehicleState(0.0, exp((0.5, 0.0, 0.0)), ZERO, (0.0, 0.0, -11.0))
-    turned = [build_cueing(m, StageParameters(), LIMITS, ZERO, 0.01).step(banked).q_WS for m in METHODS]
+    turned = [
+        build_cueing(m, StageParameters(), LIMITS, ZERO, 0.01).step(banked).q_WS for m in METHODS
+    ]
     assert turned[0] == pytest.approx(exp((0.5, 0.0, 0.0)))
     for q_WS in turned[1:]:
         assert q_WS == pytest.approx(IDENTITY, abs=1e-12)
 
 
 def test_they_turn_with_a_turn_as_they_should() -> None:
-    """A second of roll, the force along the seat: all of it, all but the slow turn, nothing, and a washed-out part."""
+    """A second of roll, the force along the seat.
+
+    All of it, all but the slow turn, nothing, and a washed-out part.
+    """
     rolled = []
     for method in METHODS:
         cueing = build_cueing(method, StageParameters(), LIMITS, ZERO, 0.01)
         for i in range(101):
-            cue = cueing.step(VehicleState(0.01 * i, exp((0.002 * i, 0.0, 0.0)), (0.2 if i else 0.0, 0.0, 0.0), LEVEL))
+            cue = cueing.step(
+                VehicleState(
+                    0.01 * i, exp((0.002 * i, 0.0, 0.0)), (0.2 if i else 0.0, 0.0, 0.0), LEVEL
+                )
+            )
         rolled.append(float(Rotation.from_quat(np.roll(cue.q_WS, -1)).magnitude()))
     attitude, blend, force, classical = rolled
     assert attitude == pytest.approx(0.2, abs=0.002)
@@ -164,7 +199,11 @@ def test_the_stage_knows_where_the_head_is() -> None:
     for head in (ZERO, (0.5, 0.0, 0.0)):
         cueing = build_cueing(AttitudeParameters(), StageParameters(), LIMITS, head, 0.01)
         cue = [
-            cueing.step(VehicleState(0.01 * i, exp((0.0, 0.0, 0.5 * (0.01 * i) ** 2)), (0.0, 0.0, 0.01 * i), LEVEL))
+            cueing.step(
+                VehicleState(
+                    0.01 * i, exp((0.0, 0.0, 0.5 * (0.01 * i) ** 2)), (0.0, 0.0, 0.01 * i), LEVEL
+                )
+            )
             for i in range(100)
         ][-1]
         moved.append(max(abs(x) for x in cue.p_WS_W))
@@ -176,7 +215,8 @@ def test_parameters_are_what_their_sources_say_and_do_not_change() -> None:
     turn = SlowTurnParameters()
     assert turn.rate == radians(3.0)
     assert (turn.time, turn.smoothing) == (2.0, 0.25)
-    assert 2.0 * turn.rate / (e * turn.smoothing) < radians(9.0)  # per second: what the customary 3 deg/s sets in with
+    # per second: what the customary 3 deg/s sets in with
+    assert 2.0 * turn.rate / (e * turn.smoothing) < radians(9.0)
     assert BlendParameters().turn == AttitudeParameters().turn == turn
     assert ForceParameters().turn.rate == pi
     stage = StageParameters()

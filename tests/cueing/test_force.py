@@ -50,7 +50,9 @@ def pushed(force: ForceAt, dt: float, seconds: float, w: Vec3 = ZERO) -> Iterato
 
 @pytest.mark.parametrize("row", TURNS, ids=lambda row: str(row["bank_deg"]))
 @pytest.mark.parametrize("speed", [20.0, 250.0])
-def test_a_level_turn_of_any_bank_and_rate_is_felt_straight_down_the_seat(row: dict[str, object], speed: float) -> None:
+def test_a_level_turn_of_any_bank_and_rate_is_felt_straight_down_the_seat(
+    row: dict[str, object], speed: float
+) -> None:
     """Pinned rows; at 20 m/s and 60 deg the turn asks for 42 deg/s of pitch to be left out."""
     dt = 1.0 / 60.0
     method = make(dt)
@@ -60,7 +62,8 @@ def test_a_level_turn_of_any_bank_and_rate_is_felt_straight_down_the_seat(row: d
         assert vehicle.f_B == pytest.approx(row["vehicle_f"], abs=1e-9)
         assert felt == pytest.approx(row["force_aligned_felt"], abs=1e-6)
         assert error(q_WS, vehicle.f_B) < 1e-6
-        assert w == pytest.approx((0.0, 0.0, -vehicle.w_NB_B[2]), abs=1e-9)  # body yaw, about W's vertical
+        # body yaw, about W's vertical
+        assert w == pytest.approx((0.0, 0.0, -vehicle.w_NB_B[2]), abs=1e-9)
 
 
 @pytest.mark.parametrize("omega", [0.05, 0.5, 2.0, 5.0])
@@ -83,7 +86,9 @@ def test_the_slower_the_force_turns_the_closer_the_cabin_is() -> None:
     for b in (2.0 * pi, 4.0 * pi):
         for omega in (0.02, 0.2):
             method = make(0.01, ForceParameters(bandwidth=b))
-            for vehicle in pushed(lambda t, rate=omega: rotate(exp((rate * t, 0.0, 0.0)), LEVEL), 0.01, 6.0):
+            for vehicle in pushed(
+                lambda t, rate=omega: rotate(exp((rate * t, 0.0, 0.0)), LEVEL), 0.01, 6.0
+            ):
                 q_WS, _ = method.step(vehicle)
             found[b, omega] = error(q_WS, vehicle.f_B)
             assert found[b, omega] == pytest.approx(2.0 * omega / b, rel=0.05)
@@ -91,7 +96,10 @@ def test_the_slower_the_force_turns_the_closer_the_cabin_is() -> None:
 
 @pytest.mark.parametrize("w", [(0.0, 0.0, 0.8), (1.5, 0.0, 0.8), (1.5, -2.0, 0.8), (1.0, 1.0, 0.0)])
 def test_the_turn_about_the_force_is_the_body_s_yaw_and_nothing_else(w: Vec3) -> None:
-    """Five whole turns and more, none lost; pitch and roll rates without a change of the force's direction do nothing."""
+    """Five whole turns and more, none lost.
+
+    Pitch and roll rates without a change of the force's direction do nothing.
+    """
     dt, method, turned = 0.01, make(0.01), 0.0
     before = 0.0
     for vehicle in pushed(lambda _: LEVEL, dt, 40.0, w):
@@ -129,7 +137,9 @@ def nearly(axis: Vec3) -> ForceAt:
     """As `steady`, but past zero at a distance of 2 m/s^2, where the presence of the force is a third."""
     across = np.cross(axis, (0.36, 0.48, 0.8))
     aside = tuple((2.0 * across / np.linalg.norm(across)).tolist())
-    return lambda t: tuple(a + sin(min(0.5 * t, 1.0) * pi) * b for a, b in zip(steady(axis)(t), aside, strict=True))
+    return lambda t: tuple(
+        a + sin(min(0.5 * t, 1.0) * pi) * b for a, b in zip(steady(axis)(t), aside, strict=True)
+    )
 
 
 def flipped(axis: Vec3) -> ForceAt:
@@ -139,15 +149,25 @@ def flipped(axis: Vec3) -> ForceAt:
 
 def gone(axis: Vec3) -> ForceAt:
     """Nothing from the first second to the third, then another direction."""
-    return lambda t: scale(STANDARD_GRAVITY, axis) if t < 1.0 else ZERO if t < 3.0 else (3.0, 4.0, -8.0)
+    return lambda t: (
+        scale(STANDARD_GRAVITY, axis) if t < 1.0 else ZERO if t < 3.0 else (3.0, 4.0, -8.0)
+    )
 
 
-AXES: list[Vec3] = [(0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.6, 0.0, -0.8)]
+AXES: list[Vec3] = [
+    (0.0, 0.0, -1.0),
+    (1.0, 0.0, 0.0),
+    (-1.0, 0.0, 0.0),
+    (0.0, 1.0, 0.0),
+    (0.6, 0.0, -0.8),
+]
 
 
 @pytest.mark.parametrize("axis", AXES, ids=str)
 @pytest.mark.parametrize("path", [steady, nearly, flipped, gone])
-def test_reversal_and_weightlessness_are_smooth_and_end_on_the_force(path: Callable[[Vec3], ForceAt], axis: Vec3) -> None:
+def test_reversal_and_weightlessness_are_smooth_and_end_on_the_force(
+    path: Callable[[Vec3], ForceAt], axis: Vec3
+) -> None:
     """The acceleration is finite: a finer tick does not make it larger, as it would a jump of the rate."""
     most, turn = [], []
     for dt in (1.0 / 200.0, 1.0 / 800.0):
@@ -164,9 +184,14 @@ def test_reversal_and_weightlessness_are_smooth_and_end_on_the_force(path: Calla
     assert turn[1] < 1.2 * turn[0]
 
 
-@pytest.mark.parametrize("f_B", [(0.0, 0.0, STANDARD_GRAVITY), (0.0, 1e-14, 9.8), (-1e-300, 0.0, 3.1)])
+@pytest.mark.parametrize(
+    "f_B", [(0.0, 0.0, STANDARD_GRAVITY), (0.0, 1e-14, 9.8), (-1e-300, 0.0, 3.1)]
+)
 def test_it_may_begin_upside_down(f_B: Vec3) -> None:
-    """A force straight against the vehicle's up at the start: aligned at once, at rest, and it stays so."""
+    """A force straight against the vehicle's up at the start.
+
+    Aligned at once, at rest, and it stays so.
+    """
     method = make(0.01)
     for vehicle in standing(from_euler(1.0, 0.0, 0.0), f_B, 0.01, 100):
         q_WS, w = method.step(vehicle)

@@ -1,4 +1,7 @@
-"""Gravity as a cue, against the geometry it stands for: what turns W's up to the force, and what keeps it there."""
+"""Gravity as a cue, against the geometry it stands for.
+
+What turns W's up to the force, and what keeps it there.
+"""
 
 from math import pi, sin
 
@@ -32,7 +35,13 @@ HOLD = 1.5
 part = st.floats(-20.0, 20.0)
 vectors = st.tuples(part, part, part)
 turns = st.tuples(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0), st.floats(-3.0, 3.0))
-AXES: list[Vec3] = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (0.6, 0.8, 0.0), (0.6, 0.0, 0.8)]
+AXES: list[Vec3] = [
+    (1.0, 0.0, 0.0),
+    (0.0, 1.0, 0.0),
+    (0.0, 0.0, 1.0),
+    (0.6, 0.8, 0.0),
+    (0.6, 0.0, 0.8),
+]
 OPPOSED = [scale(s, axis) for axis in AXES for s in (1.0, -1.0)]
 
 
@@ -42,7 +51,9 @@ def test_aligned_is_the_nearest_cabin_whose_up_is_the_force(turn: Vec3, f_B: Vec
     vehicle = VehicleState(0.0, exp(turn), ZERO, f_B)
     q_WS, level = aligned(vehicle, HOLD), aligned(VehicleState(0.0, exp(turn), ZERO, ZERO), HOLD)
     assert angle_between(up_in_cabin(q_WS), flip(f_B)) < 1e-6
-    assert geodesic(level, q_WS) == pytest.approx(angle_between(up_in_cabin(level), flip(f_B)), abs=1e-6)
+    assert geodesic(level, q_WS) == pytest.approx(
+        angle_between(up_in_cabin(level), flip(f_B)), abs=1e-6
+    )
 
 
 def test_aligned_takes_the_attitude_where_there_is_no_force_to_speak_of() -> None:
@@ -63,7 +74,9 @@ def test_misalignment_turns_up_to_the_force_by_the_shortest_way(turn: Vec3, f_S:
 @pytest.mark.parametrize("off", [0.0, 1e-12, 1e-7])
 def test_a_force_straight_against_up_is_turned_to_as_well(up_S: Vec3, off: float) -> None:
     """Half a turn brings up to the force, about an axis that lies across it: about the force itself nothing would change."""
-    q_WS = conjugate(exp(scale(angle_between((0.0, 0.0, 1.0), up_S), _across((0.0, 0.0, 1.0), up_S))))
+    q_WS = conjugate(
+        exp(scale(angle_between((0.0, 0.0, 1.0), up_S), _across((0.0, 0.0, 1.0), up_S)))
+    )
     assert up_in_cabin(q_WS) == pytest.approx(up_S, abs=1e-15)
     f_S = (-9.8 * up_S[0], -9.8 * up_S[1] + off, -9.8 * up_S[2] - off)
     error = misalignment(q_WS, f_S, HOLD)
@@ -96,17 +109,23 @@ def test_presence_has_level_ends_and_a_half_in_the_middle() -> None:
 def test_misalignment_fades_with_the_presence() -> None:
     for size in (0.5, 1.51, 2.0, 2.5, 3.1, 50.0):
         error = misalignment(IDENTITY, (0.0, 0.6 * size, 0.8 * size), HOLD)
-        assert norm(error) == pytest.approx(fade_in(size, HOLD) * angle_between((0.0, 0.6, 0.8), (0.0, 0.0, 1.0)))
+        assert norm(error) == pytest.approx(
+            fade_in(size, HOLD) * angle_between((0.0, 0.6, 0.8), (0.0, 0.0, 1.0))
+        )
 
 
 @pytest.mark.parametrize("w_S", [ZERO, (0.3, -2.0, 1.0)])
-def test_the_rate_that_carries_keeps_up_on_the_force_and_turns_with_the_vehicle_about_it(w_S: Vec3) -> None:
+def test_the_rate_that_carries_keeps_up_on_the_force_and_turns_with_the_vehicle_about_it(
+    w_S: Vec3,
+) -> None:
     """u' = -w x u by finite differences of the filtered force, and w . u = w_vehicle . u."""
     dt, direction = 1e-3, ForceDirection(1e-3, 2.0 * pi, HOLD, (3.0, 0.0, 9.0))
     u, w = [], []
     for i in range(4000):
         t = i * dt
-        filtered = direction.step((3.0 + 4.0 * sin(3.0 * t), 5.0 * sin(2.0 * t), 9.0 + 4.0 * sin(5.0 * t)))
+        filtered = direction.step(
+            (3.0 + 4.0 * sin(3.0 * t), 5.0 * sin(2.0 * t), 9.0 + 4.0 * sin(5.0 * t))
+        )
         u.append(np.array(filtered) / norm(filtered))
         w.append(direction.carried(w_S))
         assert dot(w[-1], tuple(u[-1])) == pytest.approx(dot(w_S, tuple(u[-1])), abs=1e-12)
@@ -117,9 +136,17 @@ def test_the_rate_that_carries_keeps_up_on_the_force_and_turns_with_the_vehicle_
 
 def test_the_rate_that_carries_is_the_vehicle_s_near_zero_force() -> None:
     w_S = (0.3, -0.2, 0.9)
-    for size, share in ((0.0, 0.0), (1e-300, 0.0), (HOLD, 0.0), (1.5 * HOLD, 0.5), (2.0 * HOLD, 1.0)):
+    for size, share in (
+        (0.0, 0.0),
+        (1e-300, 0.0),
+        (HOLD, 0.0),
+        (1.5 * HOLD, 0.5),
+        (2.0 * HOLD, 1.0),
+    ):
         direction = ForceDirection(0.01, 6.0, HOLD, (0.0, 0.0, size))
-        assert direction.carried(w_S) == pytest.approx(((1.0 - share) * 0.3, -(1.0 - share) * 0.2, 0.9))
+        assert direction.carried(w_S) == pytest.approx(
+            ((1.0 - share) * 0.3, -(1.0 - share) * 0.2, 0.9)
+        )
 
 
 @pytest.mark.parametrize("omega", [0.5, 3.0, 8.0])

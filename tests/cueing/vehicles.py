@@ -42,7 +42,11 @@ def manoeuvring(dt: float, seconds: float, push: float = 1.0) -> Iterator[Vehicl
         p = phi_1 - psi_1 * sin(theta)
         q = theta_1 * cos(phi) + psi_1 * cos(theta) * sin(phi)
         r = psi_1 * cos(theta) * cos(phi) - theta_1 * sin(phi)
-        force = (2.0 * push * sin(0.8 * t), 1.5 * push * sin(1.1 * t), -9.8 - 4.0 * push * sin(0.6 * t))
+        force = (
+            2.0 * push * sin(0.8 * t),
+            1.5 * push * sin(1.1 * t),
+            -9.8 - 4.0 * push * sin(0.6 * t),
+        )
         yield VehicleState(t, from_euler(psi, theta, phi), (p, q, r), force)
 
 
@@ -57,6 +61,8 @@ def _vectors(most: float) -> st.SearchStrategy[Vec3]:
 
 
 def wild(force: float, rate: float) -> st.SearchStrategy[list[tuple[Quat, Vec3, Vec3]]]:
-    """Attitudes, body rates (up to `rate` rad/s each) and forces (up to `force` m/s^2 each) that have nothing to do with
-    each other nor with the ones before."""
-    return st.lists(st.tuples(_vectors(3.0).map(exp), _vectors(rate), _vectors(force)), min_size=1, max_size=12)
+    """Attitudes, body rates (up to `rate` rad/s each) and forces (up to `force` m/s^2 each) that
+    have nothing to do with each other nor with the ones before."""
+    return st.lists(
+        st.tuples(_vectors(3.0).map(exp), _vectors(rate), _vectors(force)), min_size=1, max_size=12
+    )

@@ -10,7 +10,10 @@ G = 9.80665
 
 
 def still(count: int, dt: float = 0.01, **changes: np.ndarray) -> RunColumns:
-    """At rest, upright, heading north, `count` ticks; arrays in `changes` replace fields and are stretched to all ticks."""
+    """At rest, upright, heading north, `count` ticks.
+
+    Arrays in `changes` replace fields and are stretched to all ticks.
+    """
     zero, unit = np.zeros((count, 3)), np.tile([1.0, 0.0, 0.0, 0.0], (count, 1))
     weight = np.tile([0.0, 0.0, -G], (count, 1))
     flight = RunColumns(
@@ -35,7 +38,13 @@ def still(count: int, dt: float = 0.01, **changes: np.ndarray) -> RunColumns:
         felt_f=weight,
         felt_w=zero,
     )
-    return replace(flight, **{name: np.broadcast_to(v, getattr(flight, name).shape).copy() for name, v in changes.items()})
+    return replace(
+        flight,
+        **{
+            name: np.broadcast_to(v, getattr(flight, name).shape).copy()
+            for name, v in changes.items()
+        },
+    )
 
 
 def sine(count: int, amplitude: float, periods: int) -> np.ndarray:

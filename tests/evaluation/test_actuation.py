@@ -37,7 +37,10 @@ def test_chatter_that_smoothing_adds() -> None:
     cue = column(sine(N, 1.0, 5), 2)
     figures = effort(still(N, cue_w_W=cue, motion_w_W=cue + flip))
     assert figures["added_angular_acceleration_rms_rad_s2"] == pytest.approx(0.2)
-    assert effort(still(N, cue_w_W=cue, motion_w_W=cue))["added_angular_acceleration_rms_rad_s2"] == 0.0
+    assert (
+        effort(still(N, cue_w_W=cue, motion_w_W=cue))["added_angular_acceleration_rms_rad_s2"]
+        == 0.0
+    )
 
 
 def test_chatter_of_a_long_flight_with_uneven_ticks() -> None:
@@ -58,7 +61,9 @@ def test_stage_acceleration_that_smoothing_adds() -> None:
     assert figures["added_stage_acceleration_rms_m_s2"] == pytest.approx(0.02 / np.sqrt(2.0))
 
 
-@pytest.mark.parametrize(("active", "counted"), [(49, False), (50, False), (51, False), (48, True), (52, True)])
+@pytest.mark.parametrize(
+    ("active", "counted"), [(49, False), (50, False), (51, False), (48, True), (52, True)]
+)
 def test_ticks_beside_a_limit_are_not_counted_as_chatter(active: int, counted: bool) -> None:
     """A jump at tick 50 is what a limit does when it is active there or at a neighbour."""
     limited = np.zeros((N, 2))
@@ -69,7 +74,9 @@ def test_ticks_beside_a_limit_are_not_counted_as_chatter(active: int, counted: b
     assert (figures["added_stage_acceleration_rms_m_s2"] > 0.0) == counted
 
 
-@pytest.mark.parametrize(("active", "counted"), [(49, False), (50, False), (51, False), (48, True), (52, True)])
+@pytest.mark.parametrize(
+    ("active", "counted"), [(49, False), (50, False), (51, False), (48, True), (52, True)]
+)
 def test_a_rate_step_beside_a_limit_is_not_counted_as_chatter(active: int, counted: bool) -> None:
     step = np.zeros((N, 3))
     step[50:, 0] = 1.0
@@ -82,7 +89,11 @@ def test_a_rate_step_beside_a_limit_is_not_counted_as_chatter(active: int, count
 def test_always_limited_adds_nothing() -> None:
     noise = np.random.default_rng(1).normal(size=(N, 3))
     figures = effort(still(N, motion_w_W=noise, motion_a_W=noise, limited=np.ones((N, 2))))
-    assert figures["added_angular_acceleration_rms_rad_s2"] == figures["added_stage_acceleration_rms_m_s2"] == 0.0
+    assert (
+        figures["added_angular_acceleration_rms_rad_s2"]
+        == figures["added_stage_acceleration_rms_m_s2"]
+        == 0.0
+    )
 
 
 def test_efforts_are_largest_magnitudes() -> None:
@@ -98,7 +109,10 @@ def test_efforts_are_largest_magnitudes() -> None:
             motion_a_W=0.3 * values,
         )
     )
-    assert (figures["wheel_speed_max_rad_s"], figures["wheel_acceleration_max_rad_s2"]) == (7.0, 14.0)
+    assert (figures["wheel_speed_max_rad_s"], figures["wheel_acceleration_max_rad_s2"]) == (
+        7.0,
+        14.0,
+    )
     assert figures["stage_travel_max_m"] == pytest.approx(0.7)
     assert figures["stage_speed_max_m_s"] == pytest.approx(1.4)
     assert figures["stage_acceleration_max_m_s2"] == pytest.approx(2.1)

@@ -16,8 +16,15 @@ from atlas_cueing.signals import StageLimits, WheelLimits
 from .flights import G, still
 
 TO_WHEELS = np.array([[7.0, -2.0, 1.0], [0.5, 6.0, -3.0], [-1.0, 2.0, 8.0]])
-WHEELS = WheelLimits(speed=(10.0, 20.0, 30.0), acceleration=(6.0, 12.0, 18.0), jerk=(60.0, 120.0, 180.0))
-STAGE = StageLimits(travel=(1.0, 1.0, 0.5), speed=(2.0, 1.0, 1.0), acceleration=(4.0, 5.0, 6.0), jerk=(40.0, 50.0, 60.0))
+WHEELS = WheelLimits(
+    speed=(10.0, 20.0, 30.0), acceleration=(6.0, 12.0, 18.0), jerk=(60.0, 120.0, 180.0)
+)
+STAGE = StageLimits(
+    travel=(1.0, 1.0, 0.5),
+    speed=(2.0, 1.0, 1.0),
+    acceleration=(4.0, 5.0, 6.0),
+    jerk=(40.0, 50.0, 60.0),
+)
 FIGURES: dict[str, Callable[[], Figures]] = {
     "metrics": Metrics,
     "limit_use": lambda: LimitUse(WHEELS, STAGE),
@@ -28,7 +35,9 @@ every = pytest.mark.parametrize("name", FIGURES)
 
 def smooth(random: np.random.Generator, count: int, width: int) -> np.ndarray:
     """A slow wander with some noise on it."""
-    return np.cumsum(random.normal(size=(count, width)), axis=0) * 0.05 + 0.02 * random.normal(size=(count, width))
+    return np.cumsum(random.normal(size=(count, width)), axis=0) * 0.05 + 0.02 * random.normal(
+        size=(count, width)
+    )
 
 
 def any_flight(count: int, seed: int) -> RunColumns:
@@ -40,7 +49,11 @@ def any_flight(count: int, seed: int) -> RunColumns:
         if field.name not in ("time", "limited") and "_q_" not in field.name
     }
     vectors["felt_w"] = np.roll(vectors["vehicle_w_B"], 4, axis=0) + 0.1 * vectors["felt_w"]
-    vectors["felt_f"] = np.roll(vectors["vehicle_f_B"], 7, axis=0) + 0.1 * vectors["felt_f"] - np.array([0.0, 0.0, G])
+    vectors["felt_f"] = (
+        np.roll(vectors["vehicle_f_B"], 7, axis=0)
+        + 0.1 * vectors["felt_f"]
+        - np.array([0.0, 0.0, G])
+    )
     quaternions = {}
     for name in ("vehicle_q_NB", "cue_q_WS", "motion_q_WS"):
         q = smooth(random, count, 4) + np.array([1.0, 0.0, 0.0, 0.0])
@@ -60,8 +73,13 @@ def cut(figures: Figures, flight: RunColumns, cuts: list[int]) -> dict[str, floa
 @every
 @settings(max_examples=25, deadline=None)
 @given(st.integers(2, 600), st.lists(st.integers(2, 600), max_size=8), st.integers(0, 2**32 - 1))
-def test_it_does_not_matter_where_a_flight_is_cut(name: str, count: int, cuts: list[int], seed: int) -> None:
-    """The first piece has two ticks, which tell the step. Quantiles are in single precision; angles have 1e-13 of rounding."""
+def test_it_does_not_matter_where_a_flight_is_cut(
+    name: str, count: int, cuts: list[int], seed: int
+) -> None:
+    """The first piece has two ticks, which tell the step.
+
+    Quantiles are in single precision; angles have 1e-13 of rounding.
+    """
     flight = any_flight(count, seed)
     whole, pieces = (cut(FIGURES[name](), flight, where) for where in ([], cuts))
     assert list(whole) == list(pieces)
@@ -77,7 +95,9 @@ def test_a_long_flight_in_its_own_blocks(name: str) -> None:
     whole = gathered(FIGURES[name](), flight)
     pieces = cut(FIGURES[name](), flight, [100, 9000, 9001, 9003, 23_456])
     for figure, value in whole.items():
-        assert pieces[figure] == pytest.approx(value, rel=1.2e-7 if "_p9" in figure else 1e-9, abs=1e-12), figure
+        assert pieces[figure] == pytest.approx(
+            value, rel=1.2e-7 if "_p9" in figure else 1e-9, abs=1e-12
+        ), figure
 
 
 @every

@@ -54,7 +54,10 @@ def test_a_true_flight_is_consistent() -> None:
 
 
 def test_reintegration_is_of_fourth_order() -> None:
-    drifts = [consistency(tumbling(hz), TO_WHEELS, TO_SPHERE)["orientation_drift_max_rad"] for hz in (10.0, 20.0)]
+    drifts = [
+        consistency(tumbling(hz), TO_WHEELS, TO_SPHERE)["orientation_drift_max_rad"]
+        for hz in (10.0, 20.0)
+    ]
     assert 12.0 < drifts[0] / drifts[1] < 20.0
 
 
@@ -72,7 +75,9 @@ def test_wheels_that_do_not_belong_to_the_motion_are_seen() -> None:
     speed, acceleration = flight.wheel_speed.copy(), flight.wheel_acceleration.copy()
     speed[7, 1] += 0.25
     acceleration[9, 2] -= 0.5
-    found = consistency(replace(flight, wheel_speed=speed, wheel_acceleration=acceleration), TO_WHEELS, TO_SPHERE)
+    found = consistency(
+        replace(flight, wheel_speed=speed, wheel_acceleration=acceleration), TO_WHEELS, TO_SPHERE
+    )
     assert found["wheel_speed_mismatch_max_rad_s"] == pytest.approx(0.25)
     assert found["wheel_acceleration_mismatch_max_rad_s2"] == pytest.approx(0.5)
 
@@ -80,14 +85,19 @@ def test_wheels_that_do_not_belong_to_the_motion_are_seen() -> None:
 def test_the_rate_in_cabin_axes_does_not_pass() -> None:
     """The classic mix-up: wheels driven by the body rate instead of the rate in W."""
     flight = tumbling(100.0)
-    body = np.array([multiply(multiply((q[0], -q[1], -q[2], -q[3]), (0.0, *w)), q)[1:] for q, w in rows(flight)])
+    body = np.array(
+        [multiply(multiply((q[0], -q[1], -q[2], -q[3]), (0.0, *w)), q)[1:] for q, w in rows(flight)]
+    )
     found = consistency(replace(flight, wheel_speed=body @ TO_WHEELS.T), TO_WHEELS, TO_SPHERE)
     assert found["wheel_speed_mismatch_max_rad_s"] > 1.0
     assert found["orientation_drift_max_rad"] > 0.1
 
 
 def rows(flight: RunColumns) -> list[tuple[tuple[float, ...], tuple[float, ...]]]:
-    return [(tuple(q), tuple(w)) for q, w in zip(flight.motion_q_WS.tolist(), flight.motion_w_W.tolist(), strict=True)]
+    return [
+        (tuple(q), tuple(w))
+        for q, w in zip(flight.motion_q_WS.tolist(), flight.motion_w_W.tolist(), strict=True)
+    ]
 
 
 def test_orientations_stay_of_unit_length() -> None:
@@ -98,4 +108,6 @@ def test_orientations_stay_of_unit_length() -> None:
 @pytest.mark.parametrize("count", [0, 1, 2])
 def test_very_short_flights(count: int) -> None:
     assert set(consistency(still(count), TO_WHEELS, TO_SPHERE).values()) == {0.0}
-    assert geodesic(reintegrate(still(count), TO_SPHERE), still(count).motion_q_WS).shape == (count,)
+    assert geodesic(reintegrate(still(count), TO_SPHERE), still(count).motion_q_WS).shape == (
+        count,
+    )

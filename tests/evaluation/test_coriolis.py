@@ -24,11 +24,17 @@ def test_turns_are_net_and_about_the_cabins_axes() -> None:
 
 
 @pytest.mark.parametrize(("axis", "share"), [(0, 1.0), (1, 0.0), (2, 1.0)])
-@pytest.mark.parametrize(("field", "name"), [("felt_w", "coriolis"), ("vehicle_w_B", "vehicle_coriolis")])
-def test_nodding_couples_with_roll_and_yaw_only(axis: int, share: float, field: str, name: str) -> None:
+@pytest.mark.parametrize(
+    ("field", "name"), [("felt_w", "coriolis"), ("vehicle_w_B", "vehicle_coriolis")]
+)
+def test_nodding_couples_with_roll_and_yaw_only(
+    axis: int, share: float, field: str, name: str
+) -> None:
     figures = turning(still(1000, **{field: column(sine(1000, 0.5, 4), axis)}))
     assert figures[f"{name}_rms_rad_s2"] == pytest.approx(share * NOD * 0.5 / np.sqrt(2.0))
-    assert figures[f"{name}_p95_rad_s2"] == pytest.approx(share * NOD * 0.5 * np.sin(0.95 * np.pi / 2.0), rel=1e-3)
+    assert figures[f"{name}_p95_rad_s2"] == pytest.approx(
+        share * NOD * 0.5 * np.sin(0.95 * np.pi / 2.0), rel=1e-3
+    )
     other = {"coriolis": "vehicle_coriolis", "vehicle_coriolis": "coriolis"}[name]
     assert figures[f"{other}_rms_rad_s2"] == 0.0
 
@@ -39,8 +45,12 @@ def test_against_the_rate_of_a_nodding_head(w: np.ndarray) -> None:
     h = 1e-4
     seen = [Rotation.from_rotvec([0.0, NOD * t, 0.0]).inv().apply(w) for t in (-h, h)]
     figures = turning(still(10, felt_w=w))
-    assert figures["coriolis_rms_rad_s2"] == pytest.approx(np.linalg.norm(seen[1] - seen[0]) / (2.0 * h), abs=1e-6)
-    assert figures["coriolis_p95_rad_s2"] == pytest.approx(figures["coriolis_rms_rad_s2"], rel=1e-7, abs=1e-12)
+    assert figures["coriolis_rms_rad_s2"] == pytest.approx(
+        np.linalg.norm(seen[1] - seen[0]) / (2.0 * h), abs=1e-6
+    )
+    assert figures["coriolis_p95_rad_s2"] == pytest.approx(
+        figures["coriolis_rms_rad_s2"], rel=1e-7, abs=1e-12
+    )
 
 
 def test_turns_of_uneven_ticks_in_blocks() -> None:
@@ -49,7 +59,9 @@ def test_turns_of_uneven_ticks_in_blocks() -> None:
     time, w = np.cumsum(random.uniform(0.005, 0.015, 20_000)), random.normal(0.1, 1.0, (20_000, 3))
     figures = turning(still(20_000, time=time, felt_w=w))
     expected = np.trapezoid(w, time, axis=0) / (2.0 * np.pi)
-    assert [figures[f"turns_{name}"] for name in ("roll", "pitch", "yaw")] == pytest.approx(expected.tolist(), rel=1e-11)
+    assert [figures[f"turns_{name}"] for name in ("roll", "pitch", "yaw")] == pytest.approx(
+        expected.tolist(), rel=1e-11
+    )
 
 
 def test_no_ticks() -> None:

@@ -17,7 +17,9 @@ def wave(t: np.ndarray) -> np.ndarray:
 
 
 @given(st.floats(-0.45, 0.45), st.floats(0.05, 5.0), st.floats(-20.0, 20.0))
-def test_a_delay_is_found_to_a_tenth_of_a_millisecond(delay: float, gain: float, offset: float) -> None:
+def test_a_delay_is_found_to_a_tenth_of_a_millisecond(
+    delay: float, gain: float, offset: float
+) -> None:
     peak, found = correlation(wave(T), offset + gain * wave(T - delay), DT)
     assert found == pytest.approx(delay, abs=1e-4)
     assert peak == pytest.approx(1.0, abs=1e-4)
@@ -43,14 +45,20 @@ def test_exchanging_the_signals_turns_the_delay_round(delay: float) -> None:
 
 @pytest.mark.parametrize("count", [40, 500, 9000, 20_000])
 def test_the_peak_is_pearsons_correlation_over_the_overlap(count: int) -> None:
-    """Noise that is late by whole ticks, mixed with other noise: every shift by numpy, one at a time; several blocks."""
+    """Noise that is late by whole ticks, mixed with other noise.
+
+    Every shift by numpy, one at a time; several blocks.
+    """
     random = np.random.default_rng(count)
     late = 7
     p, other = random.normal(size=(2, count))
     q = 0.8 * np.roll(p, late) + 0.4 * other
     most = min(round(WINDOW / DT), count // 4)
     shifts = range(-most, most + 1)
-    values = [np.corrcoef(p[max(-s, 0) : count - max(s, 0)], q[max(s, 0) : count + min(s, 0)])[0, 1] for s in shifts]
+    values = [
+        np.corrcoef(p[max(-s, 0) : count - max(s, 0)], q[max(s, 0) : count + min(s, 0)])[0, 1]
+        for s in shifts
+    ]
     k = int(np.argmax(values))
     assert shifts[k] == late
     peak, delay = correlation(p, q, DT)
@@ -60,7 +68,9 @@ def test_the_peak_is_pearsons_correlation_over_the_overlap(count: int) -> None:
     assert peak == pytest.approx(min(b - 0.25 * (a - c) * offset, 1.0), abs=1e-10)
 
 
-def in_pieces(reference: np.ndarray, delayed: np.ndarray, pieces: list[int], dt: float = DT) -> tuple[float, float]:
+def in_pieces(
+    reference: np.ndarray, delayed: np.ndarray, pieces: list[int], dt: float = DT
+) -> tuple[float, float]:
     """Of signals that come in pieces that end there."""
     signals = Correlation(dt)
     for v, p in zip(np.split(reference, pieces), np.split(delayed, pieces), strict=True):
@@ -73,7 +83,9 @@ PIECES = [[7], [7168, 14_336], [1, 2, 3, 60, 61, 123, 200], [19_999], [8192, 819
 
 @pytest.mark.parametrize("pieces", PIECES, ids=str)
 @pytest.mark.parametrize("late", [-40, 0, 11])
-def test_in_pieces_it_is_pearsons_correlation_over_the_overlap_too(pieces: list[int], late: int) -> None:
+def test_in_pieces_it_is_pearsons_correlation_over_the_overlap_too(
+    pieces: list[int], late: int
+) -> None:
     """Noise around values far from zero that drift away, against numpy at the peak."""
     count = 20_000
     noise, other = np.random.default_rng(1).normal(size=(2, count))
@@ -85,7 +97,8 @@ def test_in_pieces_it_is_pearsons_correlation_over_the_overlap_too(pieces: list[
         compared = p[-late:], q[:late]
     peak, delay = in_pieces(p, q, pieces)
     assert delay == pytest.approx(late * DT, abs=0.5 * DT)
-    assert peak == pytest.approx(np.corrcoef(*compared)[0, 1], abs=2e-3)  # the parabola's vertex is a little higher
+    # the parabola's vertex is a little higher
+    assert peak == pytest.approx(np.corrcoef(*compared)[0, 1], abs=2e-3)
     assert (peak, delay) == pytest.approx(correlation(p, q, DT), abs=1e-10)
 
 
@@ -168,14 +181,21 @@ def test_at_least_three_quarters_of_a_short_record_are_compared() -> None:
 @pytest.mark.parametrize("count", [0, 1, 2, 3, 100, 5000])
 def test_what_does_not_vary_has_no_correlation(constant: float, count: int) -> None:
     still, moving = np.full(count, constant), wave(T[:count])
-    assert correlation(still, moving, DT) == correlation(moving, still, DT) == correlation(still, still, DT) == (0.0, 0.0)
+    assert (
+        correlation(still, moving, DT)
+        == correlation(moving, still, DT)
+        == correlation(still, still, DT)
+        == (0.0, 0.0)
+    )
 
 
 @pytest.mark.parametrize("smallest", [0.1, 10.0])
 def test_what_varies_too_little_has_no_correlation(smallest: float) -> None:
     deviation = np.std(wave(T))
     assert correlation(wave(T), wave(T), DT, 1.001 * deviation) == (0.0, 0.0)
-    assert correlation(wave(T), smallest * wave(T), DT, 0.999 * deviation * min(smallest, 1.0))[0] == pytest.approx(1.0)
+    assert correlation(wave(T), smallest * wave(T), DT, 0.999 * deviation * min(smallest, 1.0))[
+        0
+    ] == pytest.approx(1.0)
 
 
 def test_a_single_step_at_the_end() -> None:

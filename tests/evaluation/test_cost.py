@@ -24,7 +24,9 @@ def test_an_error_at_its_threshold_all_the_way_costs_one() -> None:
 
 def test_a_degree_of_direction_costs_one() -> None:
     off = radians(1.0)
-    assert cost(still(10, felt_f=G * np.array([0.0, np.sin(off), -np.cos(off)])))["cost"] == pytest.approx(1.0, rel=0.01)
+    assert cost(still(10, felt_f=G * np.array([0.0, np.sin(off), -np.cos(off)])))[
+        "cost"
+    ] == pytest.approx(1.0, rel=0.01)
 
 
 def test_parts_add_up_as_squares_and_ticks_as_a_mean() -> None:

@@ -17,7 +17,8 @@ from atlas_cueing.evaluation.cues import (
 T = 0.17
 LOW, HIGH = GAIN_BAND
 NONE, MISSING, FALSE, SCALED = (
-    {"missing": float(kind == 0), "false": float(kind == 1), "scaled": float(kind == 2)} for kind in (-1, 0, 1, 2)
+    {"missing": float(kind == 0), "false": float(kind == 1), "scaled": float(kind == 2)}
+    for kind in (-1, 0, 1, 2)
 )
 
 
@@ -45,7 +46,9 @@ NONE, MISSING, FALSE, SCALED = (
         (-0.9 * T, 2.0, FALSE),
     ],
 )
-def test_one_tick_of_each_kind(vehicle: float, platform: float, sign: float, kind: dict[str, float]) -> None:
+def test_one_tick_of_each_kind(
+    vehicle: float, platform: float, sign: float, kind: dict[str, float]
+) -> None:
     assert cue_shares(np.array([sign * vehicle]), np.array([sign * platform]), T) == kind
 
 
@@ -74,7 +77,9 @@ signals = arrays(np.float64, (2, 30), elements=st.floats(-1.0, 1.0))
 
 
 @given(signals, st.floats(0.01, 0.5))
-def test_no_tick_is_of_two_kinds_and_signs_do_not_matter(pair: np.ndarray, threshold: float) -> None:
+def test_no_tick_is_of_two_kinds_and_signs_do_not_matter(
+    pair: np.ndarray, threshold: float
+) -> None:
     vehicle, platform = pair
     shares = cue_shares(vehicle, platform, threshold)
     assert sum(shares.values()) <= 1.0 + 1e-12
@@ -87,14 +92,18 @@ def test_exchanging_vehicle_and_platform(pair: np.ndarray, threshold: float) -> 
     """The band is its own reciprocal; what is missing one way is false the other way, except reversed cues: false both ways."""
     vehicle, platform = pair
     forth, back = cue_shares(vehicle, platform, threshold), cue_shares(platform, vehicle, threshold)
-    assert forth["missing"] + forth["false"] == pytest.approx(np.mean(_wrong(vehicle, platform, threshold)))
+    assert forth["missing"] + forth["false"] == pytest.approx(
+        np.mean(_wrong(vehicle, platform, threshold))
+    )
     assert back["missing"] + back["false"] == pytest.approx(forth["missing"] + forth["false"])
     assert back["scaled"] == pytest.approx(forth["scaled"])
 
 
 def _wrong(vehicle: np.ndarray, platform: np.ndarray, threshold: float) -> list[bool]:
     """By the signs alone: -1, 0 and 1 below, within and above the threshold."""
-    return [_sign(a, threshold) != _sign(b, threshold) for a, b in zip(vehicle, platform, strict=True)]
+    return [
+        _sign(a, threshold) != _sign(b, threshold) for a, b in zip(vehicle, platform, strict=True)
+    ]
 
 
 def _sign(x: float, threshold: float) -> int:

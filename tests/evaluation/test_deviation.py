@@ -34,7 +34,10 @@ def test_direction_error_of_a_tilted_cabin() -> None:
 
 @pytest.mark.parametrize("side", ["vehicle_f_B", "felt_f"])
 def test_near_free_fall_there_is_no_direction(side: str) -> None:
-    """A quarter of the flight at just under a tenth of g and upside down; another quarter at just over it and sideways."""
+    """A quarter of the flight at just under a tenth of g and upside down.
+
+    Another quarter at just over it and sideways.
+    """
     force = still(N).felt_f
     force[: N // 4] = (0.0, 0.0, 0.999 * DIRECTION_FORCE)
     force[N // 4 : N // 2] = (1.001 * DIRECTION_FORCE, 0.0, 0.0)
@@ -46,12 +49,19 @@ def test_near_free_fall_there_is_no_direction(side: str) -> None:
 
 def test_free_fall_all_the_way() -> None:
     figures = deviation(still(N, vehicle_f_B=np.zeros(3)))
-    assert figures["direction_counted_share"] == figures["direction_rms_rad"] == figures["direction_max_rad"] == 0.0
+    assert (
+        figures["direction_counted_share"]
+        == figures["direction_rms_rad"]
+        == figures["direction_max_rad"]
+        == 0.0
+    )
     assert figures["force_rms_m_s2"] == pytest.approx(G)
 
 
 def test_rate_error() -> None:
-    figures = deviation(still(N, vehicle_w_B=column(sine(N, 0.3, 2), 0), felt_w=column(sine(N, 0.3, 2), 1)))
+    figures = deviation(
+        still(N, vehicle_w_B=column(sine(N, 0.3, 2), 0), felt_w=column(sine(N, 0.3, 2), 1))
+    )
     assert figures["rate_rms_rad_s"] == pytest.approx(0.3)
     assert figures["rate_p95_rad_s"] == pytest.approx(0.3 * np.sqrt(2.0) * P95, rel=1e-3)
     assert figures["rate_max_rad_s"] == pytest.approx(0.3 * np.sqrt(2.0))
@@ -60,15 +70,24 @@ def test_rate_error() -> None:
 def test_the_heading_at_the_start_is_no_attitude_error() -> None:
     """Heading 2 rad, then a roll of 0.1 rad: W's x is the heading at the start."""
     q_NB = np.tile(from_euler(2.0, 0.0, 0.0), (N, 1))
-    assert deviation(still(N, vehicle_q_NB=q_NB))["attitude_max_rad"] == pytest.approx(0.0, abs=1e-12)
+    assert deviation(still(N, vehicle_q_NB=q_NB))["attitude_max_rad"] == pytest.approx(
+        0.0, abs=1e-12
+    )
     q_NB[N // 2 :] = from_euler(2.0, 0.0, 0.1)
     flight = still(N, vehicle_q_NB=q_NB)
     figures = deviation(flight)
     assert figures["attitude_rms_rad"] == pytest.approx(0.1 * RMS)
     assert figures["attitude_p95_rad"] == pytest.approx(0.1)
     assert figures["attitude_max_rad"] == pytest.approx(0.1)
-    np.testing.assert_allclose(vehicle_attitude(flight)[-1], flip_rotation(from_euler(0.0, 0.0, 0.1)), atol=1e-15)
-    assert deviation(still(N, vehicle_q_NB=q_NB, motion_q_WS=vehicle_attitude(flight)))["attitude_max_rad"] < 1e-12
+    np.testing.assert_allclose(
+        vehicle_attitude(flight)[-1], flip_rotation(from_euler(0.0, 0.0, 0.1)), atol=1e-15
+    )
+    assert (
+        deviation(still(N, vehicle_q_NB=q_NB, motion_q_WS=vehicle_attitude(flight)))[
+            "attitude_max_rad"
+        ]
+        < 1e-12
+    )
 
 
 def test_attitude_error_against_scipy_over_many_pieces() -> None:
@@ -86,7 +105,9 @@ def test_attitude_error_against_scipy_over_many_pieces() -> None:
 
 def test_a_turn_to_the_right_is_negative_about_the_platforms_vertical() -> None:
     q_NB = np.array([from_euler(0.5, 0.0, 0.0), from_euler(0.6, 0.0, 0.0)])
-    np.testing.assert_allclose(vehicle_attitude(still(2, vehicle_q_NB=q_NB))[1], exp((0.0, 0.0, -0.1)), atol=1e-15)
+    np.testing.assert_allclose(
+        vehicle_attitude(still(2, vehicle_q_NB=q_NB))[1], exp((0.0, 0.0, -0.1)), atol=1e-15
+    )
 
 
 def test_extra_rate_is_counted_while_the_wheels_can_follow() -> None:
@@ -96,12 +117,16 @@ def test_extra_rate_is_counted_while_the_wheels_can_follow() -> None:
     figures = extra_rate(still(N, felt_w=felt_w, limited=limited))
     assert list(figures) == ["extra_rate_rms_rad_s", "extra_rate_p99_rad_s", "extra_rate_max_rad_s"]
     assert list(figures.values()) == pytest.approx([0.05] * 3)
-    assert extra_rate(still(N, felt_w=felt_w, limited=np.ones((N, 2))))["extra_rate_max_rad_s"] == 0.0
+    assert (
+        extra_rate(still(N, felt_w=felt_w, limited=np.ones((N, 2))))["extra_rate_max_rad_s"] == 0.0
+    )
 
 
 def test_extra_rate_leaves_the_vehicles_out() -> None:
     w = np.random.default_rng(3).normal(size=(N, 3))
     figures = extra_rate(still(N, vehicle_w_B=w, felt_w=w + column(sine(N, 0.04, 1), 1)))
     assert figures["extra_rate_rms_rad_s"] == pytest.approx(0.04 * RMS)
-    assert figures["extra_rate_p99_rad_s"] == pytest.approx(0.04 * np.sin(0.99 * np.pi / 2.0), rel=1e-3)
+    assert figures["extra_rate_p99_rad_s"] == pytest.approx(
+        0.04 * np.sin(0.99 * np.pi / 2.0), rel=1e-3
+    )
     assert figures["extra_rate_max_rad_s"] == pytest.approx(0.04, rel=1e-4)

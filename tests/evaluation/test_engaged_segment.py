@@ -33,5 +33,11 @@ def test_the_last_state_goes_on_to_the_end() -> None:
 
 
 def test_the_longest_stretch_is_taken() -> None:
-    changes = ((0.0, "running"), (0.2, "holding"), (0.35, "running"), (0.7, "parking"), (0.85, "running"))
+    changes = (
+        (0.0, "running"),
+        (0.2, "holding"),
+        (0.35, "running"),
+        (0.7, "parking"),
+        (0.85, "running"),
+    )
     assert rows(*changes) == [0.375, 0.5, 0.625]

@@ -8,8 +8,15 @@ from atlas_cueing.signals import StageLimits, WheelLimits
 
 from .flights import still
 
-WHEELS = WheelLimits(speed=(10.0, 20.0, 30.0), acceleration=(6.0, 12.0, 18.0), jerk=(60.0, 120.0, 180.0))
-STAGE = StageLimits(travel=(1.0, 1.0, 0.5), speed=(2.0, 1.0, 1.0), acceleration=(4.0, 5.0, 6.0), jerk=(40.0, 50.0, 60.0))
+WHEELS = WheelLimits(
+    speed=(10.0, 20.0, 30.0), acceleration=(6.0, 12.0, 18.0), jerk=(60.0, 120.0, 180.0)
+)
+STAGE = StageLimits(
+    travel=(1.0, 1.0, 0.5),
+    speed=(2.0, 1.0, 1.0),
+    acceleration=(4.0, 5.0, 6.0),
+    jerk=(40.0, 50.0, 60.0),
+)
 DT = 0.001
 T = np.arange(1001) * DT
 
@@ -34,11 +41,16 @@ def test_very_short_flights(count: int) -> None:
 
 @pytest.mark.parametrize("axis", [0, 1, 2])
 def test_a_wheel_at_full_jerk(axis: int) -> None:
-    """Acceleration grows at the jerk limit for 0.1 s, then stays at the acceleration limit; then speed 3 wheel units."""
+    """Acceleration grows at the jerk limit for 0.1 s, then stays at the acceleration limit.
+
+    Then speed 3 wheel units.
+    """
     jerk, top = WHEELS.jerk[axis], WHEELS.acceleration[axis]
     acceleration = np.minimum(jerk * T, top)
     speed = np.where(T < 0.1, 0.5 * jerk * T**2, 0.5 * top * 0.1 + top * (T - 0.1))
-    flight = still(len(T), DT, wheel_speed=on_axis(speed, axis), wheel_acceleration=on_axis(acceleration, axis))
+    flight = still(
+        len(T), DT, wheel_speed=on_axis(speed, axis), wheel_acceleration=on_axis(acceleration, axis)
+    )
     use = limit_use(flight, WHEELS, STAGE)
     assert use["wheel_speed_logged"] == pytest.approx(speed[-1] / WHEELS.speed[axis])
     assert use["wheel_acceleration_logged"] == pytest.approx(1.0)
@@ -65,7 +77,9 @@ def test_a_stage_axis_at_full_jerk(axis: int) -> None:
     middle = 0.0995  # of the last tick
     assert use["stage_acceleration_difference"] == pytest.approx(10.0 * middle)
     assert use["stage_speed_logged"] == pytest.approx(-jerk * 0.005 / STAGE.speed[axis])
-    assert use["stage_speed_difference"] == pytest.approx(-jerk * 0.005 / STAGE.speed[axis], rel=0.02)
+    assert use["stage_speed_difference"] == pytest.approx(
+        -jerk * 0.005 / STAGE.speed[axis], rel=0.02
+    )
     assert use["stage_travel_logged"] == pytest.approx(-jerk * 0.001 / 6.0 / STAGE.travel[axis])
 
 
@@ -88,7 +102,9 @@ def test_a_jump_between_two_ticks_is_a_violation(field: str, caught: set[str]) -
 
 @pytest.mark.parametrize("tick", [BLOCK_TICKS + k for k in (-3, -2, -1, 0, 1, 2)])
 @pytest.mark.parametrize("kind", [np.sign, np.abs], ids=["jump", "kink"])
-@pytest.mark.parametrize("field", ["wheel_speed", "wheel_acceleration", "motion_p_W", "motion_v_W", "motion_a_W"])
+@pytest.mark.parametrize(
+    "field", ["wheel_speed", "wheel_acceleration", "motion_p_W", "motion_v_W", "motion_a_W"]
+)
 def test_where_a_block_ends_does_not_matter(field: str, kind: np.ufunc, tick: int) -> None:
     """A jump, or a kink, at the last tick of a block or at the first ticks of the next."""
 
@@ -103,7 +119,9 @@ def test_uneven_ticks() -> None:
     """A parabola has one acceleration, at any spacing: speed 3 t^2 has the curvature 6."""
     time = np.cumsum(np.random.default_rng(1).uniform(0.5, 1.5, 200)) * 0.01
     flight = still(200, time=time, wheel_speed=on_axis(3.0 * time**2, 0))
-    assert limit_use(flight, WHEELS, STAGE)["wheel_jerk_second_difference"] == pytest.approx(6.0 / 60.0)
+    assert limit_use(flight, WHEELS, STAGE)["wheel_jerk_second_difference"] == pytest.approx(
+        6.0 / 60.0
+    )
 
 
 def test_violations_name_the_limit_and_the_use() -> None:

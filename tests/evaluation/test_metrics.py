@@ -13,7 +13,15 @@ from .flights import still
 
 N = 1000
 UNITS = ("_m_s2", "_rad", "_rad_s", "_rad_s2", "_m", "_m_s", "_s", "_share", "_correlation")
-PAIRS = ("vehicle_f_B", "felt_f", "vehicle_w_B", "felt_w", "motion_w_W", "motion_a_W", "wheel_speed")
+PAIRS = (
+    "vehicle_f_B",
+    "felt_f",
+    "vehicle_w_B",
+    "felt_w",
+    "motion_w_W",
+    "motion_a_W",
+    "wheel_speed",
+)
 
 
 def test_a_perfect_flight_has_no_errors() -> None:
@@ -68,7 +76,9 @@ def test_every_axis_has_the_same_figures() -> None:
 def test_figures_are_finite_and_shares_are_shares(seed: int, count: int, magnitude: float) -> None:
     random = np.random.default_rng(seed)
     changes = {name: 10.0**magnitude * random.normal(size=(count, 3)) for name in PAIRS}
-    figures = metrics(still(count, limited=random.integers(0, 2, (count, 2)).astype(float), **changes))
+    figures = metrics(
+        still(count, limited=random.integers(0, 2, (count, 2)).astype(float), **changes)
+    )
     json.dumps(figures, allow_nan=False)
     assert {type(value) for value in figures.values()} == {float}
     for name, value in figures.items():
@@ -86,7 +96,13 @@ def test_rms_p95_and_max_are_in_order(seed: int, count: int) -> None:
     random = np.random.default_rng(seed)
     changes = {name: random.normal(size=(count, 3)) for name in PAIRS}
     figures = metrics(still(count, **changes))
-    units = {"force": "m_s2", "direction": "rad", "rate": "rad_s", "perceived_force": "m_s2", "perceived_rate": "rad_s"}
+    units = {
+        "force": "m_s2",
+        "direction": "rad",
+        "rate": "rad_s",
+        "perceived_force": "m_s2",
+        "perceived_rate": "rad_s",
+    }
     for name, unit in units.items():
         rms, p95, largest = (figures[f"{name}_{kind}_{unit}"] for kind in ("rms", "p95", "max"))
         assert 0.0 < rms <= largest, name
@@ -97,8 +113,17 @@ def test_a_longer_flight_of_the_same_has_the_same_figures() -> None:
     """Longer than the pieces that are computed at a time."""
     motion = np.random.default_rng(1).normal(size=(10_000, 3))
     once, twice = (
-        metrics(still(10_000 * k, vehicle_f_B=np.tile(motion, (k, 1)), felt_w=np.tile(motion, (k, 1)))) for k in (1, 2)
+        metrics(
+            still(10_000 * k, vehicle_f_B=np.tile(motion, (k, 1)), felt_w=np.tile(motion, (k, 1)))
+        )
+        for k in (1, 2)
     )
-    for name in ("force_rms_m_s2", "force_max_m_s2", "rate_rms_rad_s", "rate_max_rad_s", "coriolis_rms_rad_s2"):
+    for name in (
+        "force_rms_m_s2",
+        "force_max_m_s2",
+        "rate_rms_rad_s",
+        "rate_max_rad_s",
+        "coriolis_rms_rad_s2",
+    ):
         assert twice[name] == pytest.approx(once[name], rel=1e-12)
     assert twice["force_x_missing_share"] == once["force_x_missing_share"] > 0.5

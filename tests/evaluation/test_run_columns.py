@@ -43,16 +43,31 @@ def test_every_field_comes_from_its_own_column() -> None:
         assert values.shape[0] == 2
         found[field.name] = values[0] if values.ndim > 1 else values[:1]
     assert found["time"].tolist() == [log.place["/motion", "time_s"]]
-    topics = {"vehicle": "/vehicle", "cue": "/cue", "motion": "/motion", "wheel": "/wheels", "felt": "/felt"}
+    topics = {
+        "vehicle": "/vehicle",
+        "cue": "/cue",
+        "motion": "/motion",
+        "wheel": "/wheels",
+        "felt": "/felt",
+    }
     symbols = {"q_NB": "q_nb_w", "q_WS": "q_ws_w", "speed": "w1_rad_s", "acceleration": "a1_rad_s2"}
-    units = {"w": "wx_rad_s", "f": "fx_m_s2", "alpha": "alphax_rad_s2", "p": "px_m", "v": "vx_m_s", "a": "ax_m_s2"}
+    units = {
+        "w": "wx_rad_s",
+        "f": "fx_m_s2",
+        "alpha": "alphax_rad_s2",
+        "p": "px_m",
+        "v": "vx_m_s",
+        "a": "ax_m_s2",
+    }
     for name, values in found.items():
         prefix, _, symbol = name.partition("_")
         if prefix in topics:
             first = symbols.get(symbol) or units[symbol.split("_")[0]]
             start = log.place[topics[prefix], first]
             assert values.tolist() == [start + k for k in range(len(values))], name
-    assert found["limited"].tolist() == [log.place["/motion", f"{part}_limited"] for part in ("wheels", "stage")]
+    assert found["limited"].tolist() == [
+        log.place["/motion", f"{part}_limited"] for part in ("wheels", "stage")
+    ]
     assert len(found) == 20
 
 

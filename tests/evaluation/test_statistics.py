@@ -29,7 +29,9 @@ def test_against_numpy(x: np.ndarray, cuts: list[int]) -> None:
     assert figures.rms == pytest.approx(np.sqrt(np.mean(x**2)), rel=1e-12, abs=1e-150)
     assert figures.largest == np.max(x)
     for share in (0.0, 0.3, 0.95, 1.0):
-        assert figures.quantile(share) == pytest.approx(np.quantile(x, share), rel=SINGLE, abs=1e-38)
+        assert figures.quantile(share) == pytest.approx(
+            np.quantile(x, share), rel=SINGLE, abs=1e-38
+        )
         assert figures.quantile(share) <= figures.largest
 
 
@@ -83,7 +85,14 @@ def test_what_is_too_large_for_single_precision() -> None:
 
 def test_nothing_is_zero() -> None:
     nothing = spread(np.empty(0), [])
-    assert nothing.rms == nothing.largest == nothing.quantile(0.5) == Magnitudes().rms == Peaks().largest == 0.0
+    assert (
+        nothing.rms
+        == nothing.largest
+        == nothing.quantile(0.5)
+        == Magnitudes().rms
+        == Peaks().largest
+        == 0.0
+    )
 
 
 def test_spread_of_a_ramp() -> None:

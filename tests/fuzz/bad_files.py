@@ -25,7 +25,8 @@ _INPUT = '[[vehicle.input]]\ntime_s = 0.1\nproperty = "{}"\nvalue = {}\n'
 _TRIM = "simulation/do_simple_trim"
 _HUGE = 10 * 2**30  # bytes
 _LOG = b"\x89MCAP0\r\n" + bytes(300_000)
-# Whatever a path may lead to instead of a file of ours; none of it is to be waited for or read to its end.
+# Whatever a path may lead to instead of a file of ours; none of it is to be waited for or read to
+# its end.
 NO_FILES: dict[str, tuple[str, dict[str, Content]]] = {
     "FIFO": ("it", {"it": Pipe()}),
     "/dev/zero": ("/dev/zero", {}),
@@ -39,7 +40,9 @@ NO_FILES: dict[str, tuple[str, dict[str, Content]]] = {
 
 def scenario(name: str, text: str | bytes, *more: str, status: int = 2, says: str = "") -> BadInput:
     """A run of a scenario file with this text."""
-    return BadInput(name, ("run", "bad.toml", "-o", "new.mcap", *more), {"bad.toml": text}, status, says)
+    return BadInput(
+        name, ("run", "bad.toml", "-o", "new.mcap", *more), {"bad.toml": text}, status, says
+    )
 
 
 def _with(line: str, at: str = "[vehicle]") -> str:
@@ -58,11 +61,27 @@ _VALUES = {
     "duration": ("duration_s = 0.5", "duration_s = {}", "duration_s"),
     "rate": ('script = "c1722"', 'script = "c1722"\nrate_hz = {}', "vehicle.rate_hz"),
 }
-_ONE_PLACE = "".join(f"platform.wheel.{i}.contact = [[1, 0, 0]]\nplatform.wheel.{i}.drive = [[0, 1, 0]]\n" for i in (0, 1))
+_ONE_PLACE = "".join(
+    f"platform.wheel.{i}.contact = [[1, 0, 0]]\nplatform.wheel.{i}.drive = [[0, 1, 0]]\n"
+    for i in (0, 1)
+)
 VALUES = [
     scenario(f"{key} {value[:20]}", SCENARIO.replace(old, new.format(value)), says=path)
     for key, (old, new, path) in _VALUES.items()
-    for value in ("1e12", "0", "-1", "1e9", "nan", "-inf", '"long"', "true", "[1]", "1979-05-27", "0x" + "f" * 9000, "{}")
+    for value in (
+        "1e12",
+        "0",
+        "-1",
+        "1e9",
+        "nan",
+        "-inf",
+        '"long"',
+        "true",
+        "[1]",
+        "1979-05-27",
+        "0x" + "f" * 9000,
+        "{}",
+    )
 ]
 TEXTS = [
     scenario("integer of 5000 digits", _with("description = " + "9" * 5000), says="TOML"),
@@ -70,26 +89,50 @@ TEXTS = [
     scenario("NUL bytes", bytes(1000)),
     scenario("not UTF-8", b'name = "\xff"', says="not UTF-8"),
     scenario("UTF-16", ("\ufeff" + SCENARIO).encode("utf-16-le"), says="is UTF-16 text"),
-    scenario("a name that turns a line around", SCENARIO.replace('"s"', '"a\u202eb"'), says="name = 'a\\u202eb'"),
-    scenario("a name with an escape", SCENARIO.replace('"s"', '"a\\u001b[2J"'), says="name = 'a\\x1b[2J'"),
+    scenario(
+        "a name that turns a line around",
+        SCENARIO.replace('"s"', '"a\u202eb"'),
+        says="name = 'a\\u202eb'",
+    ),
+    scenario(
+        "a name with an escape", SCENARIO.replace('"s"', '"a\\u001b[2J"'), says="name = 'a\\x1b[2J'"
+    ),
     scenario("a name of a number", SCENARIO.replace('"s"', "42"), says='as a text: "42"'),
     scenario("a log", _LOG, says="is a log (MCAP)"),
     scenario("300 kB", SCENARIO + "#" * 300_000, says="too large"),
-    scenario("dotted key of 40 kB", ".".join("a" * 20_000) + "=1\n" + SCENARIO, says="too many dots"),
+    scenario(
+        "dotted key of 40 kB", ".".join("a" * 20_000) + "=1\n" + SCENARIO, says="too many dots"
+    ),
     scenario("20,000 brackets deep", "a = " + "[" * 20_000, says="nested too deeply"),
     scenario("strings without end", 'a = """\\' * 1000),
     scenario("30,000 unknown keys", "".join(f"k{i}=1\n" for i in range(30_000)), says="30000 keys"),
-    scenario("5,000 unknown keys", "".join(f"k{i}=1\n" for i in range(5000)) + SCENARIO, says="unknown key"),
-    scenario("a key of 100 kB", "k" * 100_000 + " = 1", says="a key is too long"),
-    scenario("description of 200 kB", _with(f'description = "{"x" * 200_000}"'), says="at most 2000 characters"),
     scenario(
-        "60,000 empty inputs", AIRCRAFT.replace('"c172x"', '"c172x"\ninput = [' + "{}," * 60_000 + "]"), says="60000 tables"
+        "5,000 unknown keys",
+        "".join(f"k{i}=1\n" for i in range(5000)) + SCENARIO,
+        says="unknown key",
+    ),
+    scenario("a key of 100 kB", "k" * 100_000 + " = 1", says="a key is too long"),
+    scenario(
+        "description of 200 kB",
+        _with(f'description = "{"x" * 200_000}"'),
+        says="at most 2000 characters",
     ),
     scenario(
-        "everything mistyped", 'name=1\nduration_s="a"\nvehicle=3\nplatform=[]\ncueing="x"\nrecording=1\n', says="name = 1"
+        "60,000 empty inputs",
+        AIRCRAFT.replace('"c172x"', '"c172x"\ninput = [' + "{}," * 60_000 + "]"),
+        says="60000 tables",
+    ),
+    scenario(
+        "everything mistyped",
+        'name=1\nduration_s="a"\nvehicle=3\nplatform=[]\ncueing="x"\nrecording=1\n',
+        says="name = 1",
     ),
     scenario("name leads elsewhere", SCENARIO.replace('"s"', '"../s"'), says="name"),
-    scenario("a sweep without batch", SCENARIO + "[sweep]\nduration_s = [1, 2]", says="atlas-cueing batch"),
+    scenario(
+        "a sweep without batch",
+        SCENARIO + "[sweep]\nduration_s = [1, 2]",
+        says="atlas-cueing batch",
+    ),
     scenario(
         "a source of FlightGear beyond the loopback",
         SCENARIO.replace('script = "c1722"', 'source = "flightgear"\nhost = "0.0.0.0"'),
@@ -97,7 +140,9 @@ TEXTS = [
 ]
 NAMES = [
     scenario("unknown script", SCENARIO.replace("c1722", "c172"), says="did you mean"),
-    scenario("script ../..", SCENARIO.replace("c1722", "../../../etc/passwd"), says="vehicle.script"),
+    scenario(
+        "script ../..", SCENARIO.replace("c1722", "../../../etc/passwd"), says="vehicle.script"
+    ),
     scenario("script /etc/passwd", SCENARIO.replace("c1722", "/etc/passwd"), says="vehicle.script"),
     scenario("script with a NUL", SCENARIO.replace("c1722", "a\\u0000b"), says="vehicle.script"),
     scenario("script of 5 kB", SCENARIO.replace("c1722", "x" * 5000), says="vehicle.script"),
@@ -107,26 +152,57 @@ NAMES = [
         {"bad.toml": SCENARIO.replace("c1722", "x.xml"), "x.xml": Link("/etc/passwd")},
         says="vehicle.script",
     ),
-    scenario("script with an escape", SCENARIO.replace("c1722", "a\\u001b.xml"), says="vehicle.script"),
-    scenario("a source that is none", SCENARIO.replace('script = "c1722"', 'source = "x"\nport = 1'), says="vehicle.source"),
+    scenario(
+        "script with an escape", SCENARIO.replace("c1722", "a\\u001b.xml"), says="vehicle.script"
+    ),
+    scenario(
+        "a source that is none",
+        SCENARIO.replace('script = "c1722"', 'source = "x"\nport = 1'),
+        says="vehicle.source",
+    ),
     scenario("aircraft ../f16", AIRCRAFT.replace("c172x", "../f16"), says="vehicle.aircraft"),
     scenario("unknown aircraft", AIRCRAFT.replace("c172x", "f61"), says="did you mean 'f16'"),
-    scenario("aircraft that does not load", AIRCRAFT.replace("c172x", "blank"), says="bad.toml: vehicle.aircraft"),
-    scenario("aircraft that does not begin", AIRCRAFT.replace("c172x", "L17"), says="bad.toml: vehicle.aircraft"),
+    scenario(
+        "aircraft that does not load",
+        AIRCRAFT.replace("c172x", "blank"),
+        says="bad.toml: vehicle.aircraft",
+    ),
+    scenario(
+        "aircraft that does not begin",
+        AIRCRAFT.replace("c172x", "L17"),
+        says="bad.toml: vehicle.aircraft",
+    ),
 ]
 _START = "[vehicle.initial]\naltitude_m = 1000\nairspeed_m_s = 60.0\n"
 FLIGHTS = [
     scenario("no initial conditions", AIRCRAFT.replace(_START, ""), says="vehicle.initial"),
     scenario("altitude 1e300", AIRCRAFT.replace("1000", "1e300"), says="altitude_m"),
     scenario("airspeed nan", AIRCRAFT.replace("60.0", "nan"), says="airspeed_m_s"),
-    scenario("airspeed 20 km/s", AIRCRAFT.replace("60.0", "20000.0"), status=1, says="specific force"),
-    scenario("400 m below the sea", AIRCRAFT.replace("1000", "-400"), says="in the ground"),
-    scenario("a trim that is not", AIRCRAFT.replace("60.0", "5.0\ntrim = true"), says="bad.toml: vehicle.initial.trim"),
     scenario(
-        "in the ground", AIRCRAFT.replace("1000", "0").replace("60.0", "0.0"), says="bad.toml: vehicle.initial.altitude_m"
+        "airspeed 20 km/s", AIRCRAFT.replace("60.0", "20000.0"), status=1, says="specific force"
     ),
-    scenario("input that trims at once", AIRCRAFT + _INPUT.format(_TRIM, 2).replace("0.1", "0.0"), says=f"{_TRIM!r} = 2"),
-    scenario("input that trims where none is", AIRCRAFT + _INPUT.format(_TRIM, 2), status=1, says="vehicle failed at 0.1"),
+    scenario("400 m below the sea", AIRCRAFT.replace("1000", "-400"), says="in the ground"),
+    scenario(
+        "a trim that is not",
+        AIRCRAFT.replace("60.0", "5.0\ntrim = true"),
+        says="bad.toml: vehicle.initial.trim",
+    ),
+    scenario(
+        "in the ground",
+        AIRCRAFT.replace("1000", "0").replace("60.0", "0.0"),
+        says="bad.toml: vehicle.initial.altitude_m",
+    ),
+    scenario(
+        "input that trims at once",
+        AIRCRAFT + _INPUT.format(_TRIM, 2).replace("0.1", "0.0"),
+        says=f"{_TRIM!r} = 2",
+    ),
+    scenario(
+        "input that trims where none is",
+        AIRCRAFT + _INPUT.format(_TRIM, 2),
+        status=1,
+        says="vehicle failed at 0.1",
+    ),
     scenario(
         "input that starts an engine that is none",
         AIRCRAFT + _INPUT.format("propulsion/set-running", 1e9),
@@ -156,7 +232,10 @@ FLIGHTS = [
     ],
     scenario(
         "F-16 into the ground",
-        AIRCRAFT.replace("c172x", "f16").replace("1000", "300\npitch_deg = -60").replace("60.0", "200.0").replace("0.5", "30"),
+        AIRCRAFT.replace("c172x", "f16")
+        .replace("1000", "300\npitch_deg = -60")
+        .replace("60.0", "200.0")
+        .replace("0.5", "30"),
         status=1,
         says="vehicle failed at",
     ),
@@ -193,16 +272,31 @@ OVERRIDES = [
     )
 ]
 SWEEPS = [
-    _batch("1e9 runs of a grid", "".join(f"cueing.k{i}=[1,2,3,4,5,6,7,8]\n" for i in range(10)), "1073741824 runs"),
+    _batch(
+        "1e9 runs of a grid",
+        "".join(f"cueing.k{i}=[1,2,3,4,5,6,7,8]\n" for i in range(10)),
+        "1073741824 runs",
+    ),
     _batch("1e9 draws", "draws = 1000000000\nduration_s = { low = 1, high = 2 }", "sweep.draws"),
-    _batch("10,000 runs, the last one wrong", "duration_s = [" + "1, " * 9999 + "-1]", "duration_s = -1"),
+    _batch(
+        "10,000 runs, the last one wrong",
+        "duration_s = [" + "1, " * 9999 + "-1]",
+        "duration_s = -1",
+    ),
     _batch("10,000 wrong runs", "duration_s = [" + "-1, " * 10_000 + "]", "duration_s = -1"),
-    _batch("a range without end", "draws = 3\nduration_s = { low = 0, high = inf }", "sweep.duration_s"),
-    _batch("a range upside down", "draws = 3\nduration_s = { low = 2, high = 1 }", "sweep.duration_s"),
+    _batch(
+        "a range without end", "draws = 3\nduration_s = { low = 0, high = inf }", "sweep.duration_s"
+    ),
+    _batch(
+        "a range upside down", "draws = 3\nduration_s = { low = 2, high = 1 }", "sweep.duration_s"
+    ),
     _batch("a pattern of 100 kB", f'vehicle.script = "{"*a" * 50_000}"', "pattern is too long"),
     _batch("19,000 keys", "".join(f"k{i}=[1]\n" for i in range(19_000)), "keys"),
     _batch(
-        "4,000 inputs in 2,000 runs", "duration_s = [" + "1, " * 2000 + "]", "keys", AIRCRAFT + _INPUT.format("a", 1) * 4000
+        "4,000 inputs in 2,000 runs",
+        "duration_s = [" + "1, " * 2000 + "]",
+        "keys",
+        AIRCRAFT + _INPUT.format("a", 1) * 4000,
     ),
     _batch(
         "500 spheres on wheels in one place",
@@ -213,7 +307,10 @@ SWEEPS = [
         "a platform file of 250 kB wrong in its end, 9,000 runs",
         ("batch", "bad.toml", "-o", "new"),
         {
-            **_swept("duration_s = [" + "1, " * 9000 + "]", SCENARIO.replace('preset = "atlas-2.9m"', 'file = "p.toml"')),
+            **_swept(
+                "duration_s = [" + "1, " * 9000 + "]",
+                SCENARIO.replace('preset = "atlas-2.9m"', 'file = "p.toml"'),
+            ),
             "p.toml": "#\n" * 120_000 + "[",
         },
         says="p.toml: TOML",
@@ -230,22 +327,42 @@ PLATFORMS = [
     ]
 ]
 PATHS = [
-    *[BadInput(f"scenario: {name}", ("run", path), files) for name, (path, files) in NO_FILES.items()],
-    *[BadInput(f"batch: {name}", ("batch", path, "-o", "new"), files) for name, (path, files) in NO_FILES.items()],
-    *[BadInput(f"platform: {name}", ("platform", path), files) for name, (path, files) in NO_FILES.items()],
     *[
-        BadInput(f"platform.file: {name}", ("run", "good.toml", "--set", f"platform.file={path}"), files)
+        BadInput(f"scenario: {name}", ("run", path), files)
         for name, (path, files) in NO_FILES.items()
     ],
     *[
-        BadInput(f"vehicle.script: {name}", ("run", "good.toml", "--trust-models", "--set", f"vehicle.script={path}"), files)
+        BadInput(f"batch: {name}", ("batch", path, "-o", "new"), files)
+        for name, (path, files) in NO_FILES.items()
+    ],
+    *[
+        BadInput(f"platform: {name}", ("platform", path), files)
+        for name, (path, files) in NO_FILES.items()
+    ],
+    *[
+        BadInput(
+            f"platform.file: {name}", ("run", "good.toml", "--set", f"platform.file={path}"), files
+        )
+        for name, (path, files) in NO_FILES.items()
+    ],
+    *[
+        BadInput(
+            f"vehicle.script: {name}",
+            ("run", "good.toml", "--trust-models", "--set", f"vehicle.script={path}"),
+            files,
+        )
         for name, (path, files) in NO_FILES.items()
     ],
     *[
         BadInput(
             f"vehicle.log: {name}",
             ("live", "bad.toml"),
-            {"bad.toml": SCENARIO.replace('script = "c1722"', f'source = "recording"\nlog = "{path}"'), **files},
+            {
+                "bad.toml": SCENARIO.replace(
+                    'script = "c1722"', f'source = "recording"\nlog = "{path}"'
+                ),
+                **files,
+            },
             status=2 if name != "10 GB of nothing" else 1,
         )
         for name, (path, files) in NO_FILES.items()

@@ -21,8 +21,11 @@ def _chunk(claimed: int, packed: bytes, crc: int = 0) -> bytes:
 
 def _packed(size: int) -> bytes:
     """So many zeros in 32 bytes for each MB: a frame of zstd (RFC 8878, 3.1.1) whose blocks are all one byte repeated."""
-    head = b"\x28\xb5\x2f\xfd\xc0\x68" + size.to_bytes(8, "little")  # of that size, with a window of 8 MB
-    middle, last = ((_BLOCK << 3 | _REPEATED << 1 | last).to_bytes(3, "little") + b"\0" for last in (0, 1))
+    # of that size, with a window of 8 MB
+    head = b"\x28\xb5\x2f\xfd\xc0\x68" + size.to_bytes(8, "little")
+    middle, last = (
+        (_BLOCK << 3 | _REPEATED << 1 | last).to_bytes(3, "little") + b"\0" for last in (0, 1)
+    )
     return head + middle * (size // _BLOCK - 1) + last
 
 
@@ -45,7 +48,9 @@ def damaged(log: bytes) -> dict[str, bytes]:
         "bomb that claims to be small": _MAGIC + _HEADER + _chunk(100, _packed(_GIB)),
         "chunk that claims 2^63 bytes": _MAGIC + _HEADER + _chunk(2**63, _packed(1 << 20)),
         "million empty records": _MAGIC + _HEADER + struct.pack("<BQ", 0x80, 0) * 1_000_000,
-        "another format's checksum": _MAGIC + _HEADER + _chunk(1 << 20, _packed(1 << 20), zlib.crc32(b"x")),
+        "another format's checksum": (
+            _MAGIC + _HEADER + _chunk(1 << 20, _packed(1 << 20), zlib.crc32(b"x"))
+        ),
     }
 
 
@@ -58,7 +63,10 @@ READERS: dict[str, Callable[[str], tuple[str, ...]]] = {
 
 
 def bad_logs(log: bytes) -> list[BadInput]:
-    """Every command that reads a log with each of them; `recover` takes those of which something is whole."""
+    """Every command that reads a log with each of them.
+
+    `recover` takes those of which something is whole.
+    """
     whole = {"more behind its end", "one bit of an attachment"}
     return [
         BadInput(
@@ -74,7 +82,13 @@ def bad_logs(log: bytes) -> list[BadInput]:
 
 
 NOT_THERE = [
-    BadInput(f"{command}: {name}", words(path), {**files, "good.mcap": Good()}, 1 if "GB" in name else 2, limits=LOGS)
+    BadInput(
+        f"{command}: {name}",
+        words(path),
+        {**files, "good.mcap": Good()},
+        1 if "GB" in name else 2,
+        limits=LOGS,
+    )
     for command, words in READERS.items()
     for name, (path, files) in {**NO_FILES, "none": ("none", {})}.items()
 ] + [
@@ -107,9 +121,17 @@ _PLACES: dict[str, tuple[str, dict[str, Content], str]] = {
 _FORCED: dict[str, tuple[str, dict[str, Content], str]] = {
     "a file of another kind": ("old", {"old": "precious"}, "nothing else is replaced"),
     "a link to one": ("new", {"new": Link("old"), "old": "precious"}, "nothing else is replaced"),
-    "links in a circle": ("a", {"a": Link("b"), "b": Link("a")}, "Too many levels of symbolic links"),
+    "links in a circle": (
+        "a",
+        {"a": Link("b"), "b": Link("a")},
+        "Too many levels of symbolic links",
+    ),
     "a link to a device": ("new", {"new": Link("/dev/null")}, "no regular file"),
-    "a link to an open file": ("new", {"new": Link("/proc/self/fd/2")}, "an open file of a process"),
+    "a link to an open file": (
+        "new",
+        {"new": Link("/proc/self/fd/2")},
+        "an open file of a process",
+    ),
     "a FIFO": ("old", {"old": Pipe()}, "no regular file"),
     "a link into no folder": ("new", {"new": Link("no/new")}, "there is no folder"),
 }
@@ -137,7 +159,13 @@ OUTPUTS = (
         for name, (path, files, says) in _PLACES.items()
     ]
     + [
-        BadInput(f"{command} --force to {name}", (*words, path, "--force"), {**_GOOD, **files}, says=says, limits=LOGS)
+        BadInput(
+            f"{command} --force to {name}",
+            (*words, path, "--force"),
+            {**_GOOD, **files},
+            says=says,
+            limits=LOGS,
+        )
         for command, words in _OUTPUTS.items()
         for name, (path, files, says) in _FORCED.items()
     ]
@@ -165,29 +193,83 @@ OUTPUTS = (
             {"s.mcap.part": Link("old"), "old": "precious"},
             says="no regular",
         ),
-        BadInput("run --force over a .part that is a FIFO", (*_RUN, "--force"), {"s.mcap.part": Pipe()}, says="no regular"),
-        BadInput("run --force over a .part of another kind", (*_RUN, "--force"), {"s.mcap.part": "precious"}, says="no log"),
         BadInput(
-            "batch over a page of another", ("batch", "good.toml", "-o", "."), {"index.html": "<html>"}, says="index.html"
+            "run --force over a .part that is a FIFO",
+            (*_RUN, "--force"),
+            {"s.mcap.part": Pipe()},
+            says="no regular",
         ),
         BadInput(
-            "batch over a table of another", ("batch", "good.toml", "-o", "."), {"summary.csv": "a,b"}, says="summary.csv"
+            "run --force over a .part of another kind",
+            (*_RUN, "--force"),
+            {"s.mcap.part": "precious"},
+            says="no log",
         ),
-        BadInput("batch over a FIFO", ("batch", "good.toml", "-o", "."), {"summary.csv": Pipe()}, says="summary.csv"),
-        BadInput("run to /dev/null", ("run", "good.toml", "-o", "/dev/null", "--force"), says="no regular file"),
-        BadInput("run beside what a killed run left", ("run", "good.toml"), {"s.mcap.part": "precious"}, says="recover"),
+        BadInput(
+            "batch over a page of another",
+            ("batch", "good.toml", "-o", "."),
+            {"index.html": "<html>"},
+            says="index.html",
+        ),
+        BadInput(
+            "batch over a table of another",
+            ("batch", "good.toml", "-o", "."),
+            {"summary.csv": "a,b"},
+            says="summary.csv",
+        ),
+        BadInput(
+            "batch over a FIFO",
+            ("batch", "good.toml", "-o", "."),
+            {"summary.csv": Pipe()},
+            says="summary.csv",
+        ),
+        BadInput(
+            "run to /dev/null",
+            ("run", "good.toml", "-o", "/dev/null", "--force"),
+            says="no regular file",
+        ),
+        BadInput(
+            "run beside what a killed run left",
+            ("run", "good.toml"),
+            {"s.mcap.part": "precious"},
+            says="recover",
+        ),
         BadInput("batch into a file", ("batch", "good.toml", "-o", "good.toml"), says="no folder"),
     ]
 )
 DISKS = [
-    BadInput("run to a full disk", ("run", "good.toml", "-o", f"{DISK}/new"), {}, 1, "No space left", FILES, "size=16k"),
+    BadInput(
+        "run to a full disk",
+        ("run", "good.toml", "-o", f"{DISK}/new"),
+        {},
+        1,
+        "No space left",
+        FILES,
+        "size=16k",
+    ),
     *[
-        BadInput(f"{command} to a full disk", (*words, f"{DISK}/new"), _GOOD, 2, "No space left", LOGS, "size=16k")
+        BadInput(
+            f"{command} to a full disk",
+            (*words, f"{DISK}/new"),
+            _GOOD,
+            2,
+            "No space left",
+            LOGS,
+            "size=16k",
+        )
         for command, words in _OUTPUTS.items()
         if command not in ("run", "live")
     ],
     *[
-        BadInput(f"{command} to a read-only disk", (*words, f"{DISK}/new"), _GOOD, 2, "cannot be written to", LOGS, "ro")
+        BadInput(
+            f"{command} to a read-only disk",
+            (*words, f"{DISK}/new"),
+            _GOOD,
+            2,
+            "cannot be written to",
+            LOGS,
+            "ro",
+        )
         for command, words in _OUTPUTS.items()
     ],
 ]
@@ -197,10 +279,19 @@ OPTIONS = [
     BadInput("no argument", ("run",)),
     BadInput("batch --jobs 0", ("batch", "good.toml", "-o", "new", "--jobs", "0")),
     BadInput("batch --time-limit nan", ("batch", "good.toml", "-o", "new", "--time-limit", "nan")),
-    BadInput("batch --memory-limit -1", ("batch", "good.toml", "-o", "new", "--memory-limit", "-1")),
+    BadInput(
+        "batch --memory-limit -1", ("batch", "good.toml", "-o", "new", "--memory-limit", "-1")
+    ),
     BadInput("batch --sort nothing", ("batch", "good.toml", "-o", "new", "--sort", "beauty")),
-    BadInput("batch --cluster nowhere", ("batch", "good.toml", "-o", "new", "--cluster", "nowhere")),
-    BadInput("batch of an empty folder", ("batch", "empty", "-o", "new"), {"empty": Folder()}, says="no scenario files"),
+    BadInput(
+        "batch --cluster nowhere", ("batch", "good.toml", "-o", "new", "--cluster", "nowhere")
+    ),
+    BadInput(
+        "batch of an empty folder",
+        ("batch", "empty", "-o", "new"),
+        {"empty": Folder()},
+        says="no scenario files",
+    ),
     BadInput("live --rate 1e9", ("live", "good.toml", "--rate", "1e9"), says="--rate"),
     BadInput("live --rate nan", ("live", "good.toml", "--rate", "nan"), says="--rate"),
     BadInput("live --duration nan", ("live", "good.toml", "--duration", "nan"), says="duration"),
@@ -208,13 +299,26 @@ OPTIONS = [
     BadInput("live --port 65536", ("live", "good.toml", "--view", "--port", "65536")),
     BadInput("live --foxglove -1", ("live", "good.toml", "--foxglove", "-1")),
     BadInput("live --setpoints x:y", ("live", "good.toml", "--setpoints", "x:y"), says="HOST:PORT"),
-    BadInput("live --setpoints to all", ("live", "good.toml", "--setpoints", "0.0.0.0:5600"), says="one machine"),
-    BadInput("live --setpoints beyond the loopback", ("live", "good.toml", "--setpoints", "192.0.2.1:5600"), says="key"),
-    BadInput("live --setpoints by name", ("live", "good.toml", "--setpoints", "example.invalid:5600")),
+    BadInput(
+        "live --setpoints to all",
+        ("live", "good.toml", "--setpoints", "0.0.0.0:5600"),
+        says="one machine",
+    ),
+    BadInput(
+        "live --setpoints beyond the loopback",
+        ("live", "good.toml", "--setpoints", "192.0.2.1:5600"),
+        says="key",
+    ),
+    BadInput(
+        "live --setpoints by name", ("live", "good.toml", "--setpoints", "example.invalid:5600")
+    ),
     BadInput("live --key alone", ("live", "good.toml", "--key", "good.toml"), says="--setpoints"),
     *[
         BadInput(
-            f"live --key: {name}", ("live", "good.toml", "--setpoints", "127.0.0.1:5600", "--key", path), files, says="--key"
+            f"live --key: {name}",
+            ("live", "good.toml", "--setpoints", "127.0.0.1:5600", "--key", path),
+            files,
+            says="--key",
         )
         for name, (path, files) in {**NO_FILES, "empty": ("it", {"it": ""})}.items()
         if name != "FIFO"  # perhaps a password manager writes to it

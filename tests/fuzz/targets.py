@@ -1,4 +1,7 @@
-"""What strangers hand in, with anything wrong with it; each target takes bytes and may refuse them, with an error of ours."""
+"""What strangers hand in, with anything wrong with it.
+
+Each target takes bytes and may refuse them, with an error of ours.
+"""
 
 import io
 import zlib
@@ -53,8 +56,36 @@ cueing.method = ["blend", "force"]
 vehicle.rate_hz = { low = 50, high = 60 }
 draws = 2
 """
-_WORDS = (b"=", b".", b"[", b"]", b"{", b"}", b'"', b"'''", b"\n", b",", b"nan", b"-inf", b"1e999", b"true", b"0x" + b"f" * 400)
-_WORDS += (b"1979-05-27", b"[[", b"\\u0000", b"\xff", b"vehicle", b"sweep", b'"*"', b"-1", b"0", b"#", b"99999999999999999999")
+_WORDS = (
+    b"=",
+    b".",
+    b"[",
+    b"]",
+    b"{",
+    b"}",
+    b'"',
+    b"'''",
+    b"\n",
+    b",",
+    b"nan",
+    b"-inf",
+    b"1e999",
+    b"true",
+    b"0x" + b"f" * 400,
+)
+_WORDS += (
+    b"1979-05-27",
+    b"[[",
+    b"\\u0000",
+    b"\xff",
+    b"vehicle",
+    b"sweep",
+    b'"*"',
+    b"-1",
+    b"0",
+    b"#",
+    b"99999999999999999999",
+)
 _NUMBERS = (0, 1, 2**7, 2**15, 2**31, 2**63, 2**64 - 1)  # lengths that lie
 
 
@@ -68,7 +99,10 @@ class Target:
 
 @dataclass
 class Tally:
-    """What came of a number of executions; `crashes` has one line for each kind of error that was not ours."""
+    """What came of a number of executions.
+
+    `crashes` has one line for each kind of error that was not ours.
+    """
 
     executions: int = 0
     refused: int = 0
@@ -76,13 +110,23 @@ class Tally:
 
     @property
     def peak_mb(self) -> float:
-        """Largest resident memory of this process so far, MB; ru_maxrss would begin with that of the parent."""
+        """Largest resident memory of this process so far, MB.
+
+        Ru_maxrss would begin with that of the parent.
+        """
         status = Path("/proc/self/status")
-        return int(status.read_text().split("VmHWM:")[1].split()[0]) / 1024.0 if status.exists() else nan
+        return (
+            int(status.read_text().split("VmHWM:")[1].split()[0]) / 1024.0
+            if status.exists()
+            else nan
+        )
 
 
 def run(target: Target, number: int, examples: int, tally: Tally) -> None:
-    """Give a target so many inputs; the same ones for the same number. Crashes are counted, not raised."""
+    """Give a target so many inputs; the same ones for the same number.
+
+    Crashes are counted, not raised.
+    """
     with TemporaryDirectory() as name:
 
         @seed(number)
@@ -110,10 +154,14 @@ def run(target: Target, number: int, examples: int, tally: Tally) -> None:
 def spoilt(bases: Sequence[bytes], words: Sequence[bytes]) -> st.SearchStrategy[bytes]:
     """One of the bases with up to eight places overwritten, cut out or filled up by words, bytes or numbers that lie."""
     piece = st.one_of(
-        st.sampled_from(words), st.binary(max_size=6), st.sampled_from(_NUMBERS).map(lambda n: n.to_bytes(8, "little"))
+        st.sampled_from(words),
+        st.binary(max_size=6),
+        st.sampled_from(_NUMBERS).map(lambda n: n.to_bytes(8, "little")),
     )
     edit = st.tuples(st.floats(0.0, 1.0), st.integers(0, 12), piece)
-    return st.tuples(st.sampled_from(bases), st.lists(edit, max_size=8), st.floats(0.5, 1.3)).map(_edited)
+    return st.tuples(st.sampled_from(bases), st.lists(edit, max_size=8), st.floats(0.5, 1.3)).map(
+        _edited
+    )
 
 
 def _edited(what: tuple[bytes, list[tuple[float, int, bytes]], float]) -> bytes:
@@ -129,7 +177,12 @@ def _ticks(count: int) -> list[Tick]:
     def tick(t: float) -> Tick:
         motion = Motion(t, IDENTITY, ZERO, ZERO, ZERO, ZERO, ZERO, (0.0, 0.0))
         cue = Cue(t, IDENTITY, ZERO, ZERO, ZERO, ZERO)
-        return Tick(VehicleState(t, IDENTITY, ZERO, (0.0, 0.0, -9.8)), cue, motion, WheelSpeeds(t, ZERO, ZERO))
+        return Tick(
+            VehicleState(t, IDENTITY, ZERO, (0.0, 0.0, -9.8)),
+            cue,
+            motion,
+            WheelSpeeds(t, ZERO, ZERO),
+        )
 
     return [tick(0.01 * k) for k in range(count)]
 
@@ -138,7 +191,9 @@ def _log() -> bytes:
     """A whole log of ours."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / "x.mcap"
-        recorder = McapRecorder(path, head_S=ZERO, metadata={}, attachments={"scenario.toml": _SCENARIO}, chunk_ticks=4)
+        recorder = McapRecorder(
+            path, head_S=ZERO, metadata={}, attachments={"scenario.toml": _SCENARIO}, chunk_ticks=4
+        )
         recorder.status(0.0, "running", "")
         for tick in _ticks(12):
             recorder.append(tick)
@@ -166,19 +221,28 @@ def _of_others() -> list[bytes]:
         own, other = Path(folder) / "own.mcap", Path(folder) / "other.mcap"
         own.write_bytes(_log())
         return [
-            rewritten(own, other, LAYOUTS[name]).read_bytes() for name in ("lz4", "no chunks, no checksums", "beside others")
+            rewritten(own, other, LAYOUTS[name]).read_bytes()
+            for name in ("lz4", "no chunks, no checksums", "beside others")
         ]
 
 
 _FELT, _STATUS = schema_of("/felt")[1], schema_of(STATUS)[1]
-_MESSAGES = flat_template(1, len(TOPICS[-1].fields)).tobytes() * 2 + record_template(2, b"\x12\x02ok") + record_template(3, b"")
+_MESSAGES = (
+    flat_template(1, len(TOPICS[-1].fields)).tobytes() * 2
+    + record_template(2, b"\x12\x02ok")
+    + record_template(3, b"")
+)
 _LOGS = st.one_of(
     spoilt([_log()], (b"\x89MCAP0\r\n", b"zstd", b"\x05", b"\x06")),
     spoilt(_of_others(), (b"lz4", b"\x03", b"\x04", b"\x05", b"\x06", b"json", b"protobuf")),
     st.tuples(
-        spoilt([_FELT], (b"time_s", b"\x01")), spoilt([_STATUS], (b"time_s", b"\x09", b"\x01")), spoilt([_MESSAGES], (b"\x05",))
+        spoilt([_FELT], (b"time_s", b"\x01")),
+        spoilt([_STATUS], (b"time_s", b"\x09", b"\x01")),
+        spoilt([_MESSAGES], (b"\x05",)),
     ).map(_crafted),
-    st.tuples(st.just(_FELT), st.just(_STATUS), spoilt([_MESSAGES], (b"\x05", b"\x09", b"\x11"))).map(_crafted),
+    st.tuples(
+        st.just(_FELT), st.just(_STATUS), spoilt([_MESSAGES], (b"\x05", b"\x09", b"\x11"))
+    ).map(_crafted),
 )
 _POINT = setpoint.encode(1, 2, 3.0, 4.0, 2, Command(3.0, ZERO, ZERO, ZERO, ZERO, ZERO))
 
@@ -199,12 +263,15 @@ def _recover(data: bytes, folder: Path) -> None:
 
 
 _PACKETS = spoilt(
-    [bytes([0, 0, 0, 24]) + bytes(PACKET_BYTES - 4)], (b"\x7f\xc0\0\0", b"\x7f\xf0\0\0", b"\xff" * 8, b"\0\0\0\x18")
+    [bytes([0, 0, 0, 24]) + bytes(PACKET_BYTES - 4)],
+    (b"\x7f\xc0\0\0", b"\x7f\xf0\0\0", b"\xff" * 8, b"\0\0\0\x18"),
 )
 _POINTS = spoilt([_POINT], (b"ATSP", b"\0\0\0\0\0\0\xf8\x7f", b"\xff"))
 
 TARGETS: dict[str, Target] = {
-    "scenario": Target(spoilt([_SCENARIO], _WORDS), lambda data, at: load_variants(_file(data, at, "s.toml"))),
+    "scenario": Target(
+        spoilt([_SCENARIO], _WORDS), lambda data, at: load_variants(_file(data, at, "s.toml"))
+    ),
     "platform": Target(
         spoilt([path.read_bytes() for path in presets().values()], _WORDS),
         lambda data, at: load_platform(str(_file(data, at, "p.toml"))).geometry(),
@@ -212,5 +279,7 @@ TARGETS: dict[str, Target] = {
     "reader": Target(_LOGS, lambda data, at: read_log(_file(data, at, "x.mcap"), LARGEST_CONTENT)),
     "salvage": Target(_LOGS, _recover),
     "flightgear": Target(_PACKETS, lambda data, _: decode(data, 0.0, Bounds())),
-    "setpoint": Target(st.one_of(_POINTS, _POINTS.map(_with_check)), lambda data, _: setpoint.decode(data)),
+    "setpoint": Target(
+        st.one_of(_POINTS, _POINTS.map(_with_check)), lambda data, _: setpoint.decode(data)
+    ),
 }

@@ -46,12 +46,17 @@ def at_most(seconds: int) -> Iterator[None]:
 
 
 HERE = [*bad_files.TEXTS, *bad_files.OVERRIDES, *bad_files.PLATFORMS, *bad_files.PATHS]
-HERE += [bad for bad in bad_logs.NOT_THERE if "GB" not in bad.name]  # tests/recording/test_endless.py looks at what has GBs
+# tests/recording/test_endless.py looks at what has GBs
+HERE += [bad for bad in bad_logs.NOT_THERE if "GB" not in bad.name]
 
 
 @pytest.mark.parametrize("bad", HERE, ids=lambda bad: bad.name[:60])
 def test_it_is_refused_at_once(
-    bad: BadInput, log: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    bad: BadInput,
+    log: bytes,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     """Without starting a process for each: a hundred of them."""
     prepare(bad, tmp_path, SCENARIO, log)
@@ -72,18 +77,25 @@ CHOSEN = [
 
 
 @pytest.mark.parametrize("name", CHOSEN)
-def test_the_command_itself_ends_as_it_ought_to(name: str, log: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_command_itself_ends_as_it_ought_to(
+    name: str, log: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(trying, "_start_up", lambda _: 0.0)
     kind, _, which = name.partition("/")
     (bad,) = [bad for bad in bad_inputs(log)[kind] if bad.name == which]
     if missing(bad):
         pytest.skip(f"needs {missing(bad)}")
-    unhurried = replace(bad, limits=replace(bad.limits, seconds=10 * bad.limits.seconds))  # the machine may be busy
+    # the machine may be busy
+    unhurried = replace(bad, limits=replace(bad.limits, seconds=10 * bad.limits.seconds))
     assert objections(unhurried, attempt(bad, SCENARIO, log)) == []
 
 
 def test_there_are_hundreds_and_each_has_a_name(log: bytes) -> None:
-    every = [(kind, bad.name, bad.arguments) for kind, inputs in bad_inputs(log).items() for bad in inputs]
+    every = [
+        (kind, bad.name, bad.arguments)
+        for kind, inputs in bad_inputs(log).items()
+        for bad in inputs
+    ]
     assert len(every) > 200
     assert len({(kind, name) for kind, name, _ in every}) == len(every)
 
@@ -102,7 +114,10 @@ def test_bad_logs_are_not_the_good_one(log: bytes) -> None:
     [
         ({"status": 1}, "status 1, not 2"),
         ({"message": "Traceback (most recent call last):"}, "traceback"),
-        ({"message": "error: unexpected KeyError: 1. This is a bug, please report it"}, "traceback"),
+        (
+            {"message": "error: unexpected KeyError: 1. This is a bug, please report it"},
+            "traceback",
+        ),
         ({"message": ""}, "no message"),
         ({"seconds": 2.1}, "2.1 s, at most 2"),
         ({"megabytes": 201.0}, "201 MB, at most 200"),
@@ -128,7 +143,10 @@ def test_what_hangs_is_ended_and_told(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_time_and_memory_are_those_of_the_command(monkeypatch: pytest.MonkeyPatch) -> None:
-    busy = "import time\nx = bytearray(150 << 20)\nwhile time.process_time() < 0.5: pass\nopen('new', 'w')"
+    busy = (
+        "import time\nx = bytearray(150 << 20)\nwhile time.process_time() < 0.5: pass\nopen('new',"
+        " 'w')"
+    )
     monkeypatch.setattr(trying, "COMMAND", (sys.executable, "-c", busy))
     monkeypatch.setattr(trying, "_start_up", lambda _: 0.1)
     ended = attempt(REFUSED, SCENARIO, b"")
@@ -145,7 +163,9 @@ def test_memory_is_not_that_of_who_tries(monkeypatch: pytest.MonkeyPatch) -> Non
     assert attempt(REFUSED, SCENARIO, b"").megabytes < len(mine) / 2**20 / 2.0
 
 
-def table(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], ended: Ended, *words: str) -> tuple[int, str]:
+def table(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], ended: Ended, *words: str
+) -> tuple[int, str]:
     """The tool's exit status and what it prints when everything ends like that."""
     monkeypatch.setattr(trying, "attempt", lambda *_: ended)
     monkeypatch.setattr(trying, "good_log", lambda _: b"radius_m")
@@ -159,13 +179,34 @@ def test_the_table(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixtur
     said = replace(WELL, message="error: key\x1b[2J: wrong\nmore")
     status, out = table(monkeypatch, capsys, said, "overrides")
     head, *rows, last = out.splitlines()
-    assert head.split() == ["kind", "handed", "in", "ex.", "s", "MB", "first", "line", "of", "the", "message"]
+    assert head.split() == [
+        "kind",
+        "handed",
+        "in",
+        "ex.",
+        "s",
+        "MB",
+        "first",
+        "line",
+        "of",
+        "the",
+        "message",
+    ]
     assert len(rows) == len(bad_files.OVERRIDES)
-    assert all(row.startswith("overrides  --set ") and row.endswith(r"  2   0.10     60  key\x1b[2J: wrong") for row in rows)
-    assert (status, last) == (0, f"{len(rows)} inputs; exit status {len(rows)} x 2; at most 0.10 s, 60 MB; wrong: 0")
+    assert all(
+        row.startswith("overrides  --set ")
+        and row.endswith(r"  2   0.10     60  key\x1b[2J: wrong")
+        for row in rows
+    )
+    assert (status, last) == (
+        0,
+        f"{len(rows)} inputs; exit status {len(rows)} x 2; at most 0.10 s, 60 MB; wrong: 0",
+    )
 
 
-def test_the_table_of_what_went_wrong(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_table_of_what_went_wrong(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     status, out = table(monkeypatch, capsys, replace(WELL, status=1, megabytes=300.0), "platforms")
     count = len(bad_files.PLATFORMS)
     assert status == 1
@@ -173,13 +214,17 @@ def test_the_table_of_what_went_wrong(monkeypatch: pytest.MonkeyPatch, capsys: p
     assert out.splitlines()[-1].startswith(f"{count} inputs; exit status {count} x 1;")
 
 
-def test_what_cannot_be_tried_is_named(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_cannot_be_tried_is_named(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.setattr(trying, "_can_mount", lambda: False)
     _, out = table(monkeypatch, capsys, WELL, "disks", "overrides")
     assert out.count("left out: needs leave to mount a tmpfs") == len(bad_logs.DISKS) > 0
 
 
-def test_an_unknown_kind_is_refused_by_name(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_unknown_kind_is_refused_by_name(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     with pytest.raises(SystemExit, match="2"):
         table(monkeypatch, capsys, WELL, "toaster")
     assert "invalid choice: 'toaster'" in capsys.readouterr().err

@@ -1,4 +1,7 @@
-"""`tools/sweep_properties` on what has ended processes before; the tool itself goes through all properties."""
+"""`tools/sweep_properties` on what has ended processes before.
+
+The tool itself goes through all properties.
+"""
 
 import subprocess
 import sys
@@ -11,7 +14,12 @@ TOOL = Path(__file__).parents[2] / "tools" / "sweep_properties"
 
 @pytest.mark.parametrize(
     ("aircraft", "only"),
-    [("c172x", "propulsion/s"), ("F450", "simulation/do"), ("737", "atmosphere/updownburst"), ("c172x", "simulation/p")],
+    [
+        ("c172x", "propulsion/s"),
+        ("F450", "simulation/do"),
+        ("737", "atmosphere/updownburst"),
+        ("c172x", "simulation/p"),
+    ],
 )
 def test_no_process_dies(aircraft: str, only: str) -> None:
     command = [sys.executable, str(TOOL), aircraft, "--only", only]
@@ -25,4 +33,7 @@ def test_no_process_dies(aircraft: str, only: str) -> None:
 def test_what_must_not_be_set_is_listed() -> None:
     command = [sys.executable, str(TOOL), "c172x", "--only", "atmosphere/updownburst"]
     told = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    assert "number-of-cells refused: JSBSim property 'atmosphere/updownburst/number-of-cells' must not be set" in told
+    assert (
+        "number-of-cells refused: JSBSim property 'atmosphere/updownburst/number-of-cells' must not"
+        " be set" in told
+    )

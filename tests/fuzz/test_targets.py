@@ -1,4 +1,7 @@
-"""A short run of every target, and that a crash would be seen. `tools/fuzz` runs them for as long as one likes."""
+"""A short run of every target, and that a crash would be seen.
+
+`tools/fuzz` runs them for as long as one likes.
+"""
 
 import subprocess
 import sys
@@ -46,11 +49,19 @@ def test_crashes_are_counted_and_refusals_are_not() -> None:
     run(Target(st.binary(max_size=6), take), 1, 100, tally)
     assert tally.refused > 0
     assert tally.crashes
-    assert all(line.startswith("ZeroDivisionError") and 0 < len(data) < 4 for line, data in tally.crashes.items())
+    assert all(
+        line.startswith("ZeroDivisionError") and 0 < len(data) < 4
+        for line, data in tally.crashes.items()
+    )
 
 
 def test_the_command() -> None:
-    done = subprocess.run([sys.executable, TOOL, "--seconds", "0.2", "setpoint"], capture_output=True, text=True, timeout=300.0)
+    done = subprocess.run(
+        [sys.executable, TOOL, "--seconds", "0.2", "setpoint"],
+        capture_output=True,
+        text=True,
+        timeout=300.0,
+    )
     assert (done.returncode, done.stderr) == (0, "")
     head, line = done.stdout.splitlines()
     assert head.split() == ["target", "executions", "refused", "crashes", "peak", "MB"]
@@ -62,6 +73,8 @@ def test_the_command() -> None:
 
 
 def test_an_unknown_target_is_refused_by_name() -> None:
-    done = subprocess.run([sys.executable, TOOL, "toaster"], capture_output=True, text=True, timeout=300.0)
+    done = subprocess.run(
+        [sys.executable, TOOL, "toaster"], capture_output=True, text=True, timeout=300.0
+    )
     assert done.returncode == 2
     assert "invalid choice: 'toaster'" in done.stderr

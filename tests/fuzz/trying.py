@@ -1,4 +1,7 @@
-"""Hands one bad input to the command, in a folder of its own, and judges what comes of it: status, message, time, memory."""
+"""Hands one bad input to the command, in a folder of its own, and judges what comes of it.
+
+Status, message, time, memory.
+"""
 
 import os
 import shutil
@@ -13,11 +16,13 @@ from tempfile import TemporaryDirectory
 from threading import Timer
 from typing import TypeAlias
 
-# What takes more memory than is good for anybody ends here, and not with the machine; files that are mapped do not count.
+# What takes more memory than is good for anybody ends here, and not with the machine; files that
+# are mapped do not count.
 _BOUNDED = "import resource; resource.setrlimit(resource.RLIMIT_DATA, (4 << 30, 4 << 30))"
 _MAIN = "import sys; from atlas_cueing.cli import main; sys.exit(main())"
 COMMAND = (sys.executable, "-W", "error", "-c", f"{_BOUNDED}; {_MAIN}")
-# A process counts the memory of the one it was started by as its own largest: it is started by a small one, which tells.
+# A process counts the memory of the one it was started by as its own largest: it is started by a
+# small one, which tells.
 _STARTER = """
 import os, sys
 child = os.fork()
@@ -31,7 +36,8 @@ PATIENCE = 300.0  # s of wall time, after which a command hangs
 BAD_USAGE = 2  # exit status of what was refused, with nothing written
 DISK = "disk"  # folder of inputs that need one of their own
 _KEPT = "kept"  # what the command left on it
-_DISKS = ("unshare", "--user", "--map-root-user", "--mount")  # whose mounts nobody else sees, and which end with the command
+# whose mounts nobody else sees, and which end with the command
+_DISKS = ("unshare", "--user", "--map-root-user", "--mount")
 
 
 @dataclass(frozen=True)
@@ -89,7 +95,8 @@ FILES, LOGS = Limits(), Limits(5.0, 512.0)
 class BadInput:
     """What is handed in, and the exit status that it ought to have.
 
-    files: by name, in the folder in which the command runs; there is always a scenario `good.toml`, too.
+    files: by name, in the folder in which the command runs; there is always a scenario `good.toml`,
+        too.
     says: part of the message. disk: options of mount for a tmpfs at `disk/`, or nothing.
     """
 
@@ -104,7 +111,10 @@ class BadInput:
 
 @dataclass(frozen=True)
 class Ended:
-    """What came of it. seconds: of CPU above those of the command's start; written: names that are there now and were not."""
+    """What came of it. seconds: of CPU above those of the command's start.
+
+    Written: names that are there now and were not.
+    """
 
     status: int
     seconds: float
@@ -125,8 +135,12 @@ def objections(bad: BadInput, ended: Ended) -> list[str]:
         "traceback": "Traceback" in ended.message or "This is a bug" in ended.message,
         "no message": ended.status != 0 and not ended.first,
         f"does not say {bad.says!r}": bad.says not in ended.message,
-        f"{ended.seconds:.1f} s, at most {bad.limits.seconds:g}": ended.seconds > bad.limits.seconds,
-        f"{ended.megabytes:.0f} MB, at most {bad.limits.megabytes:g}": ended.megabytes > bad.limits.megabytes,
+        f"{ended.seconds:.1f} s, at most {bad.limits.seconds:g}": (
+            ended.seconds > bad.limits.seconds
+        ),
+        f"{ended.megabytes:.0f} MB, at most {bad.limits.megabytes:g}": (
+            ended.megabytes > bad.limits.megabytes
+        ),
         f"wrote {', '.join(ended.written)}": bad.status == BAD_USAGE and bool(ended.written),
     }
     return [objection for objection, holds in wrong.items() if holds]
@@ -140,7 +154,10 @@ def missing(bad: BadInput) -> str:
 @cache
 def _can_mount() -> bool:
     mount = [*_DISKS, "mount", "-t", "tmpfs", "none", "/mnt"]
-    return bool(shutil.which(_DISKS[0])) and subprocess.run(mount, capture_output=True, timeout=PATIENCE).returncode == 0
+    return (
+        bool(shutil.which(_DISKS[0]))
+        and subprocess.run(mount, capture_output=True, timeout=PATIENCE).returncode == 0
+    )
 
 
 def attempt(bad: BadInput, scenario: str, log: bytes) -> Ended:
@@ -204,18 +221,30 @@ def _make(path: Path, content: Content, log: bytes) -> None:
 
 
 def _words(bad: BadInput) -> list[str]:
-    """What to run. On a disk of its own, what the command wrote there is copied beside it at the end, under another name."""
+    """What to run.
+
+    On a disk of its own, what the command wrote there is copied beside it at the end, under another
+    name.
+    """
     command = [*COMMAND, *bad.arguments]
     if not bad.disk:
         return command
-    script = f'mkdir -p {DISK} && mount -t tmpfs -o "$0" none {DISK} && "$@"; status=$?; cp -r {DISK} {_KEPT}; exit $status'
+    script = (
+        f'mkdir -p {DISK} && mount -t tmpfs -o "$0" none {DISK} && "$@"; status=$?; cp -r {DISK}'
+        f" {_KEPT}; exit $status"
+    )
     return [*_DISKS, "sh", "-c", script, bad.disk, *command]
 
 
 @cache
 def _start_up(command: tuple[str, ...]) -> float:
     """CPU time that a command takes to find that its file is not there, s; the least of three."""
-    nothing = [*COMMAND, *command, "none", *(["-o", "x"] if command[0] in ("batch", "recue", "recover") else [])]
+    nothing = [
+        *COMMAND,
+        *command,
+        "none",
+        *(["-o", "x"] if command[0] in ("batch", "recue", "recover") else []),
+    ]
     with TemporaryDirectory() as folder:
         return min(_run(nothing, Path(folder))[1] for _ in range(3))
 
@@ -233,11 +262,15 @@ def _run(words: Sequence[str], folder: Path) -> tuple[int, float, float, str]:
             alarm.cancel()
         err.seek(0)
         message = err.read().decode(errors="replace")
-        status, seconds, megabytes = told.read_text().split() if told.exists() else (killed, 0.0, 0.0)
+        status, seconds, megabytes = (
+            told.read_text().split() if told.exists() else (killed, 0.0, 0.0)
+        )
     return int(status), float(seconds), float(megabytes), message
 
 
 def counted(all_ended: Iterable[Ended]) -> str:
     """`57 x 2, 12 x 1`: how many ended with each status."""
     statuses = [ended.status for ended in all_ended]
-    return ", ".join(f"{statuses.count(status)} x {status}" for status in sorted(set(statuses), reverse=True))
+    return ", ".join(
+        f"{statuses.count(status)} x {status}" for status in sorted(set(statuses), reverse=True)
+    )

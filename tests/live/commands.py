@@ -20,4 +20,6 @@ def swinging(t: float) -> Command:
         return (value, 0.5 * value, -value)
 
     s, c = sin(2.0 * t), cos(2.0 * t)
-    return Command(t, three(5.0 * s), three(10.0 * c), three(0.3 * s), three(0.6 * c), three(-1.2 * s))
+    return Command(
+        t, three(5.0 * s), three(10.0 * c), three(0.3 * s), three(0.6 * c), three(-1.2 * s)
+    )

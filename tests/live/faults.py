@@ -107,16 +107,22 @@ def illegal(corrupt: Callable[[Motion], Motion]) -> Fault:
 
 def shifted(m: Motion) -> Motion:
     x, y, z = m.p_WS_W
-    return Motion(m.time, m.q_WS, m.w_WS_W, m.alpha_WS_W, (x + 0.01, y, z), m.v_WS_W, m.a_WS_W, m.limited)
+    return Motion(
+        m.time, m.q_WS, m.w_WS_W, m.alpha_WS_W, (x + 0.01, y, z), m.v_WS_W, m.a_WS_W, m.limited
+    )
 
 
 def jerked(m: Motion) -> Motion:
     x, y, z = m.w_WS_W
-    return Motion(m.time, m.q_WS, (x + 0.5, y, z), m.alpha_WS_W, m.p_WS_W, m.v_WS_W, m.a_WS_W, m.limited)
+    return Motion(
+        m.time, m.q_WS, (x + 0.5, y, z), m.alpha_WS_W, m.p_WS_W, m.v_WS_W, m.a_WS_W, m.limited
+    )
 
 
 def no_number(m: Motion) -> Motion:
-    return Motion(m.time, m.q_WS, (nan, nan, nan), m.alpha_WS_W, m.p_WS_W, m.v_WS_W, m.a_WS_W, m.limited)
+    return Motion(
+        m.time, m.q_WS, (nan, nan, nan), m.alpha_WS_W, m.p_WS_W, m.v_WS_W, m.a_WS_W, m.limited
+    )
 
 
 # Which states a fault leaves, and for which; it leaves all others as they are.
@@ -136,4 +142,8 @@ MATRIX: Mapping[str, tuple[Fault, frozenset[State], State]] = {
     "sphere jerked": (illegal(jerked), ALL - FAULTS, State.FAULT_STOPPING),
     "not a number": (illegal(no_number), ALL - FAULTS, State.FAULT_STOPPING),
 }
-LEADS_ON = {State.FAULT_STOPPING: {State.STOPPED}, State.PARKING: {State.PARKED}, State.ENGAGING: {State.RUNNING}}
+LEADS_ON = {
+    State.FAULT_STOPPING: {State.STOPPED},
+    State.PARKING: {State.PARKED},
+    State.ENGAGING: {State.RUNNING},
+}

@@ -17,7 +17,8 @@ from .motions import Motion
 RATE = 60.0
 SIMULATOR, STRANGER = ("127.0.0.1", 40000), ("127.0.0.1", 40001)
 POSITION = (0.2, 0.8, 1000.0)
-FEET = normal_gravity(*POSITION[1:]) / 9.80665 / METRES_PER_FOOT  # ft/s^2 in the packet for 1 m/s^2 of the state
+# ft/s^2 in the packet for 1 m/s^2 of the state
+FEET = normal_gravity(*POSITION[1:]) / 9.80665 / METRES_PER_FOOT
 
 
 class Port:
@@ -68,7 +69,9 @@ def packet_of(state: VehicleState) -> bytes:
     psi, theta, phi = to_euler(state.q_NB)
     euler = (phi, theta, psi)
     force = [FEET * f for f in state.f_B]
-    return packet(position=POSITION, euler=euler, euler_rates=euler_rates(euler, state.w_NB_B), force=force)
+    return packet(
+        position=POSITION, euler=euler, euler_rates=euler_rates(euler, state.w_NB_B), force=force
+    )
 
 
 def every(begin: float, end: float, rate_hz: float = RATE) -> list[float]:
@@ -80,4 +83,7 @@ def states(intakes: list[SourceReading]) -> list[VehicleState]:
 
 
 def clean(intakes: list[SourceReading]) -> bool:
-    return not any(intake.dropped or intake.bad_in_a_row or intake.jumped or intake.reason for intake in intakes)
+    return not any(
+        intake.dropped or intake.bad_in_a_row or intake.jumped or intake.reason
+        for intake in intakes
+    )

@@ -34,7 +34,9 @@ class Motion:
     def at(self, time: float) -> VehicleState:
         """State at any time."""
         k = int(time / FINE)
-        return VehicleState(time, self._on(self._grid[k], k * FINE, time - k * FINE), rate(time), force(time))
+        return VehicleState(
+            time, self._on(self._grid[k], k * FINE, time - k * FINE), rate(time), force(time)
+        )
 
     @staticmethod
     def _on(q: Quat, t: float, h: float) -> Quat:
@@ -53,7 +55,10 @@ def angles(one: list[VehicleState], other: list[VehicleState]) -> Array:
     """Angle between attitudes, rad, with scipy."""
     from scipy.spatial.transform import Rotation
 
-    p, q = (Rotation.from_quat([state.q_NB for state in states], scalar_first=True) for states in (one, other))
+    p, q = (
+        Rotation.from_quat([state.q_NB for state in states], scalar_first=True)
+        for states in (one, other)
+    )
     magnitude: Array = (p.inv() * q).magnitude()
     return magnitude
 

@@ -19,7 +19,9 @@ STARTED_NS = 1_700_000_000_123_456_789
 
 
 def live_recorder(path: Path) -> McapRecorder:
-    return McapRecorder(path, head_S=HEAD, metadata=METADATA, attachments=ATTACHMENTS, started_ns=STARTED_NS)
+    return McapRecorder(
+        path, head_S=HEAD, metadata=METADATA, attachments=ATTACHMENTS, started_ns=STARTED_NS
+    )
 
 
 def live_tick(time: float) -> tuple[Tick, Timing]:
@@ -27,8 +29,16 @@ def live_tick(time: float) -> tuple[Tick, Timing]:
     return tumbling_at(time), Timing(time, time + 0.25, 1e-5, 2e-4, 0.004, 3.0, 2.0)
 
 
-def ride(writer: LiveWriter, rate: float, ticks: int | None = None, told: Callable[[float], None] = lambda _: None) -> None:
-    """Write ticks in real time on an absolute schedule, for ever without a number; `told` hears of each that is written."""
+def ride(
+    writer: LiveWriter,
+    rate: float,
+    ticks: int | None = None,
+    told: Callable[[float], None] = lambda _: None,
+) -> None:
+    """Write ticks in real time on an absolute schedule, for ever without a number.
+
+    `told` hears of each that is written.
+    """
     start = monotonic()
     for k in count():
         if k == ticks:
@@ -41,7 +51,8 @@ def ride(writer: LiveWriter, rate: float, ticks: int | None = None, told: Callab
 class SharedClock:
     """Time of a loop and of the process that follows it: it stands still while either of them does.
 
-    So a busy machine changes nothing in what happens when, though both processes are real and run side by side.
+    So a busy machine changes nothing in what happens when, though both processes are real and run
+    side by side.
     """
 
     def __init__(self) -> None:
@@ -64,7 +75,10 @@ class SharedClock:
 
 @contextmanager
 def child(function: Callable[[], None]) -> Iterator[int]:
-    """The process of a forked function; it is reaped, and has to have ended within seconds by then."""
+    """The process of a forked function.
+
+    It is reaped, and has to have ended within seconds by then.
+    """
     pid = fork()
     if pid == 0:
         try:

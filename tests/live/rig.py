@@ -101,10 +101,14 @@ class TumblingSource:
             self.bad, self._row, dropped = self.bad - 1, self._row + 1, 1
         elif not self.quiet:
             self._row, self._newest = 0, time
-            self.vehicle = VehicleState(time, self.q, w, (1.5 * sin(time), cos(1.3 * time), -9.8 + sin(2.0 * time)))
+            self.vehicle = VehicleState(
+                time, self.q, w, (1.5 * sin(time), cos(1.3 * time), -9.8 + sin(2.0 * time))
+            )
         vehicle = self.vehicle and replace(self.vehicle, time=time)
         reason = "NaN" if dropped else "reset" if jumped else ""
-        return SourceReading(vehicle, time - self._newest, dropped, self._row, jumped, self.over, reason)
+        return SourceReading(
+            vehicle, time - self._newest, dropped, self._row, jumped, self.over, reason
+        )
 
     def pin(self) -> None:
         self.pinned += 1
@@ -136,7 +140,9 @@ class Tape:
         self.statuses.append((time, state, reason))
         self.order.append(state)
 
-    def send(self, sequence: int, time: float, valid_from: float, state: int, command: Command) -> None:
+    def send(
+        self, sequence: int, time: float, valid_from: float, state: int, command: Command
+    ) -> None:
         self.commands.append(command)
         self.sent.append((sequence, time, valid_from, state))
 
@@ -168,9 +174,19 @@ class Rig:
     ) -> None:
         self.dt, self.scenario = dt, scenario(platform, *settings)
         limits = self.scenario.platform
-        self.wheel_limits, self.stage_limits = limits.wheel_limit_values(), limits.stage_limit_values()
-        self.source, self.clock, self.tape, self.wanted = TumblingSource(dt, rate), FakeClock(), Tape(), Wanted()
-        self.ride = PlatformController(self.pipeline, limits.geometry().sphere_from_wheels, self.stage_limits.travel, dt)
+        self.wheel_limits, self.stage_limits = (
+            limits.wheel_limit_values(),
+            limits.stage_limit_values(),
+        )
+        self.source, self.clock, self.tape, self.wanted = (
+            TumblingSource(dt, rate),
+            FakeClock(),
+            Tape(),
+            Wanted(),
+        )
+        self.ride = PlatformController(
+            self.pipeline, limits.geometry().sphere_from_wheels, self.stage_limits.travel, dt
+        )
         self.guard = Guard(dt, self.wheel_limits, self.stage_limits)
         wishes = OperatorInputs(self.wanted.edges, lambda: self.wanted.signals, duration, attended)
         self.conductor = LiveController(self.ride, self.guard, self.source, wishes)
@@ -212,7 +228,9 @@ class Rig:
             if reached():
                 return k * self.dt
             self.tick()
-        raise AssertionError(f"{what} not reached within {seconds} s; {self.state}, {self.tape.statuses[-3:]}")
+        raise AssertionError(
+            f"{what} not reached within {seconds} s; {self.state}, {self.tape.statuses[-3:]}"
+        )
 
     def press(self, *names: str) -> None:
         self.wanted.buttons += names
@@ -242,20 +260,31 @@ class Rig:
         assert self.state is state
 
     def excess(self) -> float:
-        """Largest share used of any limit by the commands and their differences, less one; before them it stood still."""
+        """Largest share used of any limit by the commands and their differences, less one.
+
+        Before them it stood still.
+        """
         return excess(self.dt, self.tape.commands, self)
 
 
 def excess(dt: float, commands: Sequence[Command], rig: Rig) -> float:
     wheels, stage = rig.wheel_limits, rig.stage_limits
-    w, b = np.array([c.wheel_speed for c in commands]), np.array([c.wheel_acceleration for c in commands])
-    p, v, a = (np.array([getattr(c, name) for c in commands]) for name in ("p_WS_W", "v_WS_W", "a_WS_W"))
+    w, b = (
+        np.array([c.wheel_speed for c in commands]),
+        np.array([c.wheel_acceleration for c in commands]),
+    )
+    p, v, a = (
+        np.array([getattr(c, name) for c in commands]) for name in ("p_WS_W", "v_WS_W", "a_WS_W")
+    )
     w, b, v, a = (np.vstack([np.zeros((3, 3)), each]) for each in (w, b, v, a))
     p = np.vstack([p[:1]] * 3 + [p])
     shares = [p / stage.travel]
     for speed, acceleration, limits in ((w, b, wheels), (v, a, stage)):
         shares += [speed / limits.speed, acceleration / limits.acceleration]
-        shares += [np.diff(speed, axis=0) / dt / limits.acceleration, np.diff(speed, 2, axis=0) / dt**2 / limits.jerk]
+        shares += [
+            np.diff(speed, axis=0) / dt / limits.acceleration,
+            np.diff(speed, 2, axis=0) / dt**2 / limits.jerk,
+        ]
         shares += [np.diff(acceleration, axis=0) / dt / limits.jerk]
     for order, limit in enumerate((stage.speed, stage.acceleration, stage.jerk), 1):
         shares.append(np.diff(p, order, axis=0) / dt**order / limit)

@@ -40,7 +40,8 @@ def test_a_signal_is_handled_during_the_wait_and_does_not_end_it(clock: Monotoni
     heard: list[float] = []
     before = signal.signal(signal.SIGALRM, lambda *_: heard.append(clock.now()))
     try:
-        signal.setitimer(signal.ITIMER_REAL, 0.02)  # the kernel's: it keeps its time on a busy machine, too
+        # the kernel's: it keeps its time on a busy machine, too
+        signal.setitimer(signal.ITIMER_REAL, 0.02)
         wanted = clock.now() + 0.2
         clock.sleep_until(wanted)
         woken = clock.now()

@@ -1,4 +1,7 @@
-"""What review says of the log of a live run: nothing, if nothing happened but what the states tell of."""
+"""What review says of the log of a live run.
+
+Nothing, if nothing happened but what the states tell of.
+"""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -80,4 +83,5 @@ def test_a_fault_is_found_with_its_reason(tmp_path: Path) -> None:
     assert len(faults) == 2
     assert "a tick began 25.0 ms late" in str(faults[0])
     assert "stopped" in str(faults[1])
-    assert {finding.check for finding in found.findings} == {"fault", "result"}  # the stop keeps every limit
+    # the stop keeps every limit
+    assert {finding.check for finding in found.findings} == {"fault", "result"}

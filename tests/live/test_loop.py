@@ -1,4 +1,7 @@
-"""The schedule against a clock that is told: absolute, missed deadlines counted and left out, everything in order."""
+"""The schedule against a clock that is told.
+
+Absolute, missed deadlines counted and left out, everything in order.
+"""
 
 from collections.abc import Callable
 from itertools import pairwise
@@ -55,7 +58,9 @@ def test_the_schedule_is_absolute() -> None:
     rig = run(dict.fromkeys(range(10, 20), 0.005))
     timings = rig.tape.timings
     assert [t.elapsed for t in timings] == pytest.approx([k * DT for k in range(60)], abs=1e-9)
-    assert [round(t.lateness, 9) for t in timings] == [0.005 if 10 <= k < 20 else 0.0 for k in range(1, 61)]
+    assert [round(t.lateness, 9) for t in timings] == [
+        0.005 if 10 <= k < 20 else 0.0 for k in range(1, 61)
+    ]
     assert rig.loop.timing.missed == 0
     assert rig.loop.timing.lateness.maximum == pytest.approx(0.005)
 
@@ -85,7 +90,9 @@ def test_a_tick_that_takes_too_long_is_not_made_up_for() -> None:
 def test_more_than_20_ms_late_is_a_fault() -> None:
     rig = run({20: 0.0199, 40: 0.0201})
     assert rig.conductor.ended.result == "fault"
-    (time, _, reason), *_ = [status for status in rig.tape.statuses if status[1] == "fault_stopping"]
+    (time, _, reason), *_ = [
+        status for status in rig.tape.statuses if status[1] == "fault_stopping"
+    ]
     assert time == pytest.approx(40 * DT)
     assert reason == f"a tick began 20.1 ms late, allowed: at most 20 ms; {REMEDY}"
 
@@ -117,7 +124,14 @@ def test_states_are_told_before_their_first_tick() -> None:
     rig.clock.sleep_until = sleep_until  # type: ignore[method-assign]
     rig.loop.run()
     told = [(time, state) for time, state, _ in rig.tape.statuses]
-    assert [state for _, state in told][:6] == ["parked", "engaging", "holding", "engaging", "running", "parking"]
+    assert [state for _, state in told][:6] == [
+        "parked",
+        "engaging",
+        "holding",
+        "engaging",
+        "running",
+        "parking",
+    ]
     assert told[-1][1] == "parked"
     names = [state.value for state in State]
     current, ticks = "", iter(rig.tape.timings)
@@ -127,7 +141,11 @@ def test_states_are_told_before_their_first_tick() -> None:
             continue
         timing = next(ticks)
         assert names[int(timing.state)] == current
-        assert not [t for t, state in told if t > timing.time and state == current and told.index((t, state)) == 0]
+        assert not [
+            t
+            for t, state in told
+            if t > timing.time and state == current and told.index((t, state)) == 0
+        ]
 
 
 def test_drives_hear_every_tick_ahead_of_time() -> None:

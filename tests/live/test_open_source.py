@@ -28,8 +28,14 @@ duration_s = 2.0
 preset = "atlas-2.9m"
 """
 SCRIPT = 'name = "script"\n[vehicle]\nscript = "c1723"\n[platform]\npreset = "atlas-2.9m"\n'
-RECORDING = 'name = "again"\n[vehicle]\nsource = "recording"\nlog = "roll.mcap"\n[platform]\npreset = "atlas-2.9m"\n'
-FLIGHTGEAR = 'name = "other"\n[vehicle]\nsource = "flightgear"\nport = {port}\n[platform]\npreset = "atlas-2.9m"\n'
+RECORDING = (
+    'name = "again"\n[vehicle]\nsource = "recording"\nlog = "roll.mcap"\n[platform]\npreset ='
+    ' "atlas-2.9m"\n'
+)
+FLIGHTGEAR = (
+    'name = "other"\n[vehicle]\nsource = "flightgear"\nport = {port}\n[platform]\npreset ='
+    ' "atlas-2.9m"\n'
+)
 
 
 def load(folder: Path, text: str) -> Scenario:

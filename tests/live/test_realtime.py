@@ -85,7 +85,9 @@ def test_what_is_granted_is_given_back(calls: list[tuple[str, object]]) -> None:
     assert after[2][1] == (0, {0, 1, 5})
 
 
-def test_refusals_are_told_and_do_no_harm(calls: list[tuple[str, object]], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_refusals_are_told_and_do_no_harm(
+    calls: list[tuple[str, object]], monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A system that lets nobody set anything, not even to what it is."""
     monkeypatch.setattr(os, "sched_setscheduler", refuse)
     monkeypatch.setattr(os, "sched_setaffinity", refuse)
@@ -112,7 +114,9 @@ def test_a_lock_that_fails_says_why(monkeypatch: pytest.MonkeyPatch) -> None:
     assert found.refused == [f"mlockall: {os.strerror(errno.ENOMEM)}"]
 
 
-def test_one_core_is_not_taken(monkeypatch: pytest.MonkeyPatch, calls: list[tuple[str, object]]) -> None:
+def test_one_core_is_not_taken(
+    monkeypatch: pytest.MonkeyPatch, calls: list[tuple[str, object]]
+) -> None:
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {3})
     with punctual(priority=True) as found:
         pass
@@ -121,7 +125,9 @@ def test_one_core_is_not_taken(monkeypatch: pytest.MonkeyPatch, calls: list[tupl
 
 
 @pytest.mark.usefixtures("calls")
-def test_a_priority_that_cannot_be_wholly_given_back_is_given_back_but_for_its_flag(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_priority_that_cannot_be_wholly_given_back_is_given_back_but_for_its_flag(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     """Without privilege SCHED_RESET_ON_FORK cannot be cleared (sched(7))."""
     policies = []
 

@@ -33,12 +33,16 @@ class Counting:
     def __init__(self) -> None:
         self.heard: list[tuple[int, float, int]] = []
 
-    def send(self, sequence: int, time: float, valid_from: float, state: int, command: Command) -> None:
+    def send(
+        self, sequence: int, time: float, valid_from: float, state: int, command: Command
+    ) -> None:
         assert command.time == time
         self.heard.append((sequence, valid_from, state))
 
 
-def fly(path: Path, options: LiveOptions = OPTIONS, drives: tuple[Counting, ...] = ()) -> LiveResult:
+def fly(
+    path: Path, options: LiveOptions = OPTIONS, drives: tuple[Counting, ...] = ()
+) -> LiveResult:
     return LiveSession(scenario("atlas-2.9m", "cueing.method=classical"), path, options).run(drives)
 
 
@@ -98,13 +102,17 @@ class Operator(Counting):
 
 def test_buttons_are_heard(tmp_path: Path) -> None:
     """Nothing engages by itself, and another thread may ask for it."""
-    session = LiveSession(scenario(), tmp_path / "run.mcap", replace(OPTIONS, duration=0.5, engage=False))
+    session = LiveSession(
+        scenario(), tmp_path / "run.mcap", replace(OPTIONS, duration=0.5, engage=False)
+    )
     result = session.run([Operator(partial(session.buttons.press, "engage"))])
     states = [status.state for status in read_log(result.log).statuses]
     assert states[:2] in (["parked", "engaging"], ["parked", "fault_stopping"])
 
 
-def test_a_slow_disk_does_not_hold_the_loop_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_slow_disk_does_not_hold_the_loop_up(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The recorder's process stands still for a quarter of a second at a time; nothing is lost."""
     step = RingRecorder.step
 
@@ -119,10 +127,13 @@ def test_a_slow_disk_does_not_hold_the_loop_up(tmp_path: Path, monkeypatch: pyte
     log = read_log(result.log)
     assert len(log.column("/timing", "time_s")) == result.ticks
     if result.result == "ok":
-        assert result.timing["lateness_p50_us"] < 125_000.0  # or half the ticks would have waited for the disk
+        # or half the ticks would have waited for the disk
+        assert result.timing["lateness_p50_us"] < 125_000.0
 
 
-def test_a_log_that_cannot_be_written_is_told_and_the_run_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_log_that_cannot_be_written_is_told_and_the_run_goes_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     from atlas_cueing.errors import OutputError
     from atlas_cueing.recording import McapRecorder
 

@@ -40,7 +40,9 @@ def test_figures_have_their_units_in_their_names() -> None:
         timing.cost.add(2.0 * duration)
     figures = timing.to_json()
     assert figures["ticks"] == 3
-    assert [figures[k] for k in ("missed_deadlines", "most_missed_in_a_row", "garbage_collections")] == [3, 2, 1]
+    assert [
+        figures[k] for k in ("missed_deadlines", "most_missed_in_a_row", "garbage_collections")
+    ] == [3, 2, 1]
     assert figures["lateness_max_us"] == pytest.approx(400.0)
     assert figures["tick_cost_max_us"] == pytest.approx(800.0)
     assert figures["lateness_p50_us"] == pytest.approx(20.5, abs=0.6)

@@ -31,7 +31,9 @@ def any_ticks(draw: st.DrawFn, most: int = 12) -> list[Tick]:
 def any_tick(draw: st.DrawFn, time: float) -> Tick:
     """A tick with any values at `time`."""
     cue = Cue(time, draw(_quat), *(draw(_vec3) for _ in range(4)))
-    motion = Motion(time, draw(_quat), *(draw(_vec3) for _ in range(5)), limited=(draw(_flag), draw(_flag)))
+    motion = Motion(
+        time, draw(_quat), *(draw(_vec3) for _ in range(5)), limited=(draw(_flag), draw(_flag))
+    )
     vehicle = VehicleState(time, draw(_quat), draw(_vec3), draw(_vec3))
     return Tick(vehicle, cue, motion, WheelSpeeds(time, draw(_vec3), draw(_vec3)))
 
@@ -49,8 +51,15 @@ def tumbling_at(t: float) -> Tick:
 
     q_NB, q_cue, q_WS = exp((t, 0.3, 0.1)), exp((t, 0.2, 0.1)), exp((t, 0.2, 0.0))
     cue = Cue(t, q_cue, vector(0.1), vector(0.2), vector(0.3), vector(0.4))
-    motion = Motion(t, q_WS, vector(0.5), vector(0.6), vector(0.7), vector(0.8), vector(0.9), (1.0, 0.0))
-    return Tick(VehicleState(t, q_NB, vector(1.0), vector(1.1)), cue, motion, WheelSpeeds(t, vector(1.2), vector(1.3)))
+    motion = Motion(
+        t, q_WS, vector(0.5), vector(0.6), vector(0.7), vector(0.8), vector(0.9), (1.0, 0.0)
+    )
+    return Tick(
+        VehicleState(t, q_NB, vector(1.0), vector(1.1)),
+        cue,
+        motion,
+        WheelSpeeds(t, vector(1.2), vector(1.3)),
+    )
 
 
 def append_all(recorder: McapRecorder, ticks: list[Tick]) -> None:
@@ -58,10 +67,17 @@ def append_all(recorder: McapRecorder, ticks: list[Tick]) -> None:
         recorder.append(tick)
 
 
-def record(path: Path, ticks: list[Tick], *, chunk_ticks: int = 5, skip_topics: tuple[str, ...] = ()) -> Path:
+def record(
+    path: Path, ticks: list[Tick], *, chunk_ticks: int = 5, skip_topics: tuple[str, ...] = ()
+) -> Path:
     """A complete log of `ticks`, with a state at the start and one at the end."""
     recorder = McapRecorder(
-        path, head_S=HEAD, metadata=METADATA, attachments=ATTACHMENTS, chunk_ticks=chunk_ticks, skip_topics=skip_topics
+        path,
+        head_S=HEAD,
+        metadata=METADATA,
+        attachments=ATTACHMENTS,
+        chunk_ticks=chunk_ticks,
+        skip_topics=skip_topics,
     )
     recorder.status(0.0, "running", "")
     append_all(recorder, ticks)

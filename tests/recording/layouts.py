@@ -1,4 +1,7 @@
-"""Logs written again by another program, in every layout that MCAP allows; our own writer takes no part here."""
+"""Logs written again by another program, in every layout that MCAP allows.
+
+Our own writer takes no part here.
+"""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
@@ -63,7 +66,10 @@ def beside_others(items: Iterable[Item]) -> Iterator[Item]:
     strangers = [
         (json, Channel(id=90, topic="/notes", message_encoding="json", metadata={}, schema_id=90)),
         (nothing, Channel(id=91, topic="/bytes", message_encoding="", metadata={}, schema_id=0)),
-        (other, Channel(id=92, topic="/tf", message_encoding="protobuf", metadata={}, schema_id=91)),
+        (
+            other,
+            Channel(id=92, topic="/tf", message_encoding="protobuf", metadata={}, schema_id=91),
+        ),
     ]
     for k, (schema, channel, message) in enumerate(items):
         yield schema, channel, message
@@ -115,7 +121,9 @@ def rewritten(source: Path, target: Path, layout: Layout) -> Path:
         writer = Writer(output, **layout.options)
         writer.start(profile="", library="another tool")
         for attachment in reader.iter_attachments():
-            writer.add_attachment(0, attachment.log_time, attachment.name, attachment.media_type, attachment.data)
+            writer.add_attachment(
+                0, attachment.log_time, attachment.name, attachment.media_type, attachment.data
+            )
         _copy_messages(writer, layout.change(_items(reader)))
         for metadata in reader.iter_metadata():
             writer.add_metadata(metadata.name, metadata.metadata)
@@ -137,6 +145,10 @@ def _copy_messages(writer: Writer, items: Iterable[Item]) -> None:
             schemas[schema.id] = writer.register_schema(schema.name, schema.encoding, schema.data)
         if channel.id not in channels:
             number = schemas[channel.schema_id]
-            channels[channel.id] = writer.register_channel(channel.topic, channel.message_encoding, number)
+            channels[channel.id] = writer.register_channel(
+                channel.topic, channel.message_encoding, number
+            )
         to = channels[channel.id]
-        writer.add_message(to, message.log_time, message.data, message.publish_time, message.sequence)
+        writer.add_message(
+            to, message.log_time, message.data, message.publish_time, message.sequence
+        )

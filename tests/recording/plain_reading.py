@@ -1,4 +1,7 @@
-"""A log as anyone sees it, through plain mcap and mcap-protobuf-support; our own reader takes no part here."""
+"""A log as anyone sees it, through plain mcap and mcap-protobuf-support.
+
+Our own reader takes no part here.
+"""
 
 from collections.abc import Iterator
 from pathlib import Path

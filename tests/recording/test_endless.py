@@ -53,16 +53,22 @@ def test_a_hole_is_not_searched_for_ever(log: bytes, tmp_path: Path) -> None:
     assert found.chunks[-1][1] <= third_chunk(log) < MAX_SEARCHED
 
 
-def test_all_holes_together_are_bounded(log: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_all_holes_together_are_bounded(
+    log: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     chunk = log[third_chunk(log) :]
     chunk = chunk[: HEAD + struct.unpack_from("<xQ", chunk)[0]]
-    (tmp_path / "x.mcap").write_bytes(log[: third_chunk(log)] + (bytes(1000) + chunk) * 10 + bytes(1000))
+    (tmp_path / "x.mcap").write_bytes(
+        log[: third_chunk(log)] + (bytes(1000) + chunk) * 10 + bytes(1000)
+    )
     assert len(salvage(tmp_path / "x.mcap", PLENTY).chunks) == 12
     monkeypatch.setattr(salvaging, "MAX_SEARCHED", 4500)
     assert len(salvage(tmp_path / "x.mcap", PLENTY).chunks) == 6
 
 
-@pytest.mark.parametrize("head", [b"", b"\x89MCAP0\r\n" + struct.pack("<BQII", 1, 8, 0, 0)], ids=["nothing", "a header"])
+@pytest.mark.parametrize(
+    "head", [b"", b"\x89MCAP0\r\n" + struct.pack("<BQII", 1, 8, 0, 0)], ids=["nothing", "a header"]
+)
 def test_nothing_in_10_gb(head: bytes, tmp_path: Path) -> None:
     with (tmp_path / "x.mcap").open("wb") as file:
         file.write(head)
@@ -78,6 +84,10 @@ def test_a_record_of_no_kind_is_refused(log: bytes, tmp_path: Path) -> None:
     header = len(b"\x89MCAP0\r\n")
     header += HEAD + struct.unpack_from("<xQ", log, header)[0]
     for opcode in (0, 0x80):
-        (tmp_path / "x.mcap").write_bytes(log[:header] + struct.pack("<BQ", opcode, 0) + log[header:])
-        with pytest.raises(LogError, match="no kind" if opcode == 0 else "checksum of the data section"):
+        (tmp_path / "x.mcap").write_bytes(
+            log[:header] + struct.pack("<BQ", opcode, 0) + log[header:]
+        )
+        with pytest.raises(
+            LogError, match="no kind" if opcode == 0 else "checksum of the data section"
+        ):
             read_log(tmp_path / "x.mcap")

@@ -1,4 +1,7 @@
-"""Messages of other writers are read by the schema that their log brings; what cannot be read is named."""
+"""Messages of other writers are read by the schema that their log brings.
+
+What cannot be read is named.
+"""
 
 import io
 from pathlib import Path
@@ -20,13 +23,17 @@ KINDS = FieldDescriptorProto
 FELT = TOPICS[-1].fields
 
 
-def written(path: Path, *channels: tuple[str, str, str, str, bytes, list[bytes]], metadata: bool = True) -> Path:
+def written(
+    path: Path, *channels: tuple[str, str, str, str, bytes, list[bytes]], metadata: bool = True
+) -> Path:
     """A file with messages of each channel: topic, its encoding, schema's name, encoding and data, and contents."""
     with path.open("wb") as stream:
         writer = Writer(stream)
         writer.start()
         for topic, encoding, name, kind, data, contents in channels:
-            channel = writer.register_channel(topic, encoding, writer.register_schema(name, kind, data))
+            channel = writer.register_channel(
+                topic, encoding, writer.register_schema(name, kind, data)
+            )
             for k, content in enumerate(contents):
                 writer.add_message(channel, k, content, k)
         if metadata:
@@ -49,9 +56,17 @@ def test_fields_go_by_their_names(tmp_path: Path, name: str) -> None:
     """Backwards, with numbers of their own, narrower types, and fields between them that we do not know."""
     types = [KINDS.TYPE_FLOAT, KINDS.TYPE_INT32, KINDS.TYPE_DOUBLE, KINDS.TYPE_BOOL]
     fields = [(field, 40 - 3 * k, types[k % 4]) for k, field in enumerate(FELT)]
-    schema = described(name, [("remark", 1, KINDS.TYPE_STRING), *reversed(fields), ("humidity", 77, KINDS.TYPE_DOUBLE)])
-    message = message_class(name, schema)(remark="windy", humidity=0.5, **{field: k % 2 for k, field in enumerate(FELT)})
-    path = written(tmp_path / "x.mcap", ("/felt", "protobuf", name, "protobuf", schema, [message.SerializeToString()] * 2))
+    schema = described(
+        name,
+        [("remark", 1, KINDS.TYPE_STRING), *reversed(fields), ("humidity", 77, KINDS.TYPE_DOUBLE)],
+    )
+    message = message_class(name, schema)(
+        remark="windy", humidity=0.5, **{field: k % 2 for k, field in enumerate(FELT)}
+    )
+    path = written(
+        tmp_path / "x.mcap",
+        ("/felt", "protobuf", name, "protobuf", schema, [message.SerializeToString()] * 2),
+    )
     table = read_log(path).tables["/felt"]
     assert table.fields == (*FELT, "humidity")
     assert table.values.tolist() == [[0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.5]] * 2
@@ -59,10 +74,17 @@ def test_fields_go_by_their_names(tmp_path: Path, name: str) -> None:
 
 
 def test_a_field_that_is_missing_is_named_when_it_is_needed(tmp_path: Path) -> None:
-    schema = described("atlas.Felt", [(field, k + 1, KINDS.TYPE_DOUBLE) for k, field in enumerate(FELT) if field != "fy_m_s2"])
-    log = read_log(written(tmp_path / "x.mcap", ("/felt", "protobuf", "atlas.Felt", "protobuf", schema, [b""])))
+    schema = described(
+        "atlas.Felt",
+        [(field, k + 1, KINDS.TYPE_DOUBLE) for k, field in enumerate(FELT) if field != "fy_m_s2"],
+    )
+    log = read_log(
+        written(tmp_path / "x.mcap", ("/felt", "protobuf", "atlas.Felt", "protobuf", schema, [b""]))
+    )
     assert log.column("/felt", "time_s").tolist() == [0.0]
-    with pytest.raises(LogError, match="/felt has no field 'fy_m_s2'; fields: time_s, fx_m_s2, fz_m_s2"):
+    with pytest.raises(
+        LogError, match="/felt has no field 'fy_m_s2'; fields: time_s, fx_m_s2, fz_m_s2"
+    ):
         log.column("/felt", "fy_m_s2")
     with pytest.raises(LogError, match="/felt has no vector 'f'"):
         log.vector("/felt", "f")
@@ -70,8 +92,16 @@ def test_a_field_that_is_missing_is_named_when_it_is_needed(tmp_path: Path) -> N
 
 def test_fields_that_only_one_channel_has_are_left_out_with_a_word(tmp_path: Path) -> None:
     name, flat = schema_of("/felt")
-    more = described(name, [*((field, k + 1, KINDS.TYPE_DOUBLE) for k, field in enumerate(FELT)), ("x", 30, KINDS.TYPE_DOUBLE)])
-    own, other = (("/felt", "protobuf", name, "protobuf", schema, [b"", b""]) for schema in (flat, more))
+    more = described(
+        name,
+        [
+            *((field, k + 1, KINDS.TYPE_DOUBLE) for k, field in enumerate(FELT)),
+            ("x", 30, KINDS.TYPE_DOUBLE),
+        ],
+    )
+    own, other = (
+        ("/felt", "protobuf", name, "protobuf", schema, [b"", b""]) for schema in (flat, more)
+    )
     log = read_log(written(tmp_path / "x.mcap", own, other))
     assert (log.tables["/felt"].fields, log.tables["/felt"].values.shape) == (FELT, (4, 8))
     assert log.tables["/felt"].log_times.tolist() == [0, 0, 1, 1]
@@ -79,8 +109,12 @@ def test_fields_that_only_one_channel_has_are_left_out_with_a_word(tmp_path: Pat
 
 
 def test_our_channels_without_a_message_that_can_be_read(tmp_path: Path) -> None:
-    path = written(tmp_path / "x.mcap", ("/motion", "json", "atlas.Motion", "jsonschema", b"{}", [b"{}"] * 3))
-    with pytest.raises(LogError, match="/motion: none of its 3 messages can be read: encoding 'json, jsonschema'"):
+    path = written(
+        tmp_path / "x.mcap", ("/motion", "json", "atlas.Motion", "jsonschema", b"{}", [b"{}"] * 3)
+    )
+    with pytest.raises(
+        LogError, match="/motion: none of its 3 messages can be read: encoding 'json, jsonschema'"
+    ):
         read_log(path)
 
 
@@ -90,15 +124,29 @@ def test_a_log_without_our_metadata(tmp_path: Path) -> None:
     channel = ("/felt", felt[0], felt[1], "protobuf", felt[2], [b""])
     assert read_log(written(tmp_path / "x.mcap", channel, metadata=False)).metadata == {}
     with pytest.raises(LogError, match="this is no log of atlas_cueing"):
-        read_log(written(tmp_path / "x.mcap", ("/pose", "json", "pose", "jsonschema", b"{}", [b"{}"]), metadata=False))
+        read_log(
+            written(
+                tmp_path / "x.mcap",
+                ("/pose", "json", "pose", "jsonschema", b"{}", [b"{}"]),
+                metadata=False,
+            )
+        )
 
 
 def test_a_schema_of_too_many_files_is_refused(tmp_path: Path) -> None:
     names = [f"{k}.proto" for k in range(2000)]
-    chain = [FileDescriptorProto(name=name, dependency=names[k + 1 : k + 2]) for k, name in enumerate(names)]
+    chain = [
+        FileDescriptorProto(name=name, dependency=names[k + 1 : k + 2])
+        for k, name in enumerate(names)
+    ]
     bundle = FileDescriptorSet(file=chain).SerializeToString()
     with pytest.raises(LogError, match=f"has 2000 files, allowed: at most {MAX_FILES}"):
-        read_log(written(tmp_path / "x.mcap", ("/status", "protobuf", "atlas.Status", "protobuf", bundle, [b""])))
+        read_log(
+            written(
+                tmp_path / "x.mcap",
+                ("/status", "protobuf", "atlas.Status", "protobuf", bundle, [b""]),
+            )
+        )
 
 
 def test_an_empty_file_of_another_writer(tmp_path: Path) -> None:

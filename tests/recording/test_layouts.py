@@ -41,7 +41,11 @@ def check_same(one: Log, other: Log) -> None:
     assert one.transforms is not None
     assert other.transforms is not None
     assert one.transforms.values.tobytes() == other.transforms.values.tobytes()
-    assert (one.statuses, one.metadata, one.attachments) == (other.statuses, other.metadata, other.attachments)
+    assert (one.statuses, one.metadata, one.attachments) == (
+        other.statuses,
+        other.metadata,
+        other.attachments,
+    )
 
 
 @pytest.mark.parametrize("name", LAYOUTS)
@@ -54,7 +58,9 @@ def test_every_layout_reads_the_same(log: Path, tmp_path: Path, name: str) -> No
 
 def test_what_is_not_read_is_told(log: Path, tmp_path: Path) -> None:
     notes = read_log(rewritten(log, tmp_path / "x.mcap", LAYOUTS["beside others"])).notes
-    assert notes[0] == "/notes: 2 messages not read: encoding 'json, jsonschema', allowed: 'protobuf'"
+    assert (
+        notes[0] == "/notes: 2 messages not read: encoding 'json, jsonschema', allowed: 'protobuf'"
+    )
     assert notes[2] == "/tf: 2 messages not read: schema 'other.Kind'"
 
 
@@ -67,7 +73,9 @@ def test_a_log_copied_by_mcap_core() -> None:
     assert copied.notes == ()
 
 
-def any_damage(data: bytes, path: Path, change: Callable[[bytearray, int], None], places: Any, good: Log) -> int:
+def any_damage(
+    data: bytes, path: Path, change: Callable[[bytearray, int], None], places: Any, good: Log
+) -> int:
     """How many of the changes are refused; the others must have changed nothing that is read."""
     refused = 0
     for place in places:
@@ -94,9 +102,14 @@ def test_damage_is_found_in_every_layout(log: Path, tmp_path: Path, name: str) -
     layout = LAYOUTS[name]
     checked = replace(layout, options={**layout.options, **ALL_CRCS})
     data = rewritten(log, tmp_path / "x.mcap", checked).read_bytes()
-    good, places = read_log(tmp_path / "x.mcap"), np.random.default_rng(1).integers(8, len(data), 25)
+    good, places = (
+        read_log(tmp_path / "x.mcap"),
+        np.random.default_rng(1).integers(8, len(data), 25),
+    )
     assert any_damage(data, tmp_path / "y.mcap", flip, places, good) == len(places)
-    bare = rewritten(log, tmp_path / "x.mcap", replace(layout, options={**layout.options, **NO_CRCS})).read_bytes()
+    bare = rewritten(
+        log, tmp_path / "x.mcap", replace(layout, options={**layout.options, **NO_CRCS})
+    ).read_bytes()
     places = np.linspace(0, len(bare) - 1, 25)
     assert any_damage(bare, tmp_path / "y.mcap", cut, places, good) == len(places)
 
@@ -123,7 +136,10 @@ def test_chunks_that_lie_about_their_size(log: Path, tmp_path: Path, sized: bool
     """A bomb in lz4 or in zstd, whose frames tell their size or not, is unpacked no further than it claims."""
     for compression, bomb in (
         (CompressionType.LZ4, lz4.frame.compress(bytes(2 * MAX_CHUNK), store_size=sized)),
-        (CompressionType.ZSTD, zstandard.ZstdCompressor(write_content_size=sized).compress(bytes(2 * MAX_CHUNK))),
+        (
+            CompressionType.ZSTD,
+            zstandard.ZstdCompressor(write_content_size=sized).compress(bytes(2 * MAX_CHUNK)),
+        ),
     ):
         layout = Layout({"compression": compression, "chunk_size": 5000, **NO_CRCS})
         data = rewritten(log, tmp_path / "x.mcap", layout).read_bytes()
@@ -138,7 +154,9 @@ def test_chunks_that_lie_about_their_size(log: Path, tmp_path: Path, sized: bool
             read_log(tmp_path / "y.mcap")
 
 
-def test_frames_of_zstd_without_a_size(log: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_frames_of_zstd_without_a_size(
+    log: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """As Go and Rust stream them, in several frames."""
 
     def compress(data: bytes) -> bytes:
@@ -146,14 +164,22 @@ def test_frames_of_zstd_without_a_size(log: Path, tmp_path: Path, monkeypatch: p
         return stream.compress(data[:100]) + stream.compress(data[100:])
 
     monkeypatch.setattr("mcap.writer.zstandard.compress", compress)
-    check_same(read_log(log), read_log(rewritten(log, tmp_path / "x.mcap", LAYOUTS["small chunks"])))
+    check_same(
+        read_log(log), read_log(rewritten(log, tmp_path / "x.mcap", LAYOUTS["small chunks"]))
+    )
 
 
-def test_a_schema_whose_files_come_in_another_order_than_they_import(log: Path, tmp_path: Path) -> None:
+def test_a_schema_whose_files_come_in_another_order_than_they_import(
+    log: Path, tmp_path: Path
+) -> None:
     def backwards(items: Any) -> Any:
         for schema, channel, message in LAYOUTS["zeros left out"].change(items):
             files = FileDescriptorSet.FromString(schema.data).file
-            yield replace(schema, data=FileDescriptorSet(file=reversed(files)).SerializeToString()), channel, message
+            yield (
+                replace(schema, data=FileDescriptorSet(file=reversed(files)).SerializeToString()),
+                channel,
+                message,
+            )
 
     check_same(read_log(log), read_log(rewritten(log, tmp_path / "x.mcap", Layout({}, backwards))))
 
@@ -178,7 +204,9 @@ def turned_stage(items: Any) -> Any:
 
 
 def test_transforms_of_others(log: Path, tmp_path: Path) -> None:
-    check_same(read_log(log), read_log(rewritten(log, tmp_path / "x.mcap", Layout({}, other_frames))))
+    check_same(
+        read_log(log), read_log(rewritten(log, tmp_path / "x.mcap", Layout({}, other_frames)))
+    )
     with pytest.raises(LogError, match="is not base -> stage -> cabin"):
         read_log(rewritten(log, tmp_path / "x.mcap", Layout({}, turned_stage)))
 
@@ -212,14 +240,20 @@ def swapped(items: Any) -> Any:
 
 
 @pytest.mark.parametrize("options", [{}, {"chunk_size": 500}, {"use_chunking": False}])
-def test_ticks_in_the_wrong_order_stay_so(log: Path, tmp_path: Path, options: dict[str, Any]) -> None:
-    times = read_log(rewritten(log, tmp_path / "x.mcap", Layout(options, swapped))).column("/motion", "time_s")
+def test_ticks_in_the_wrong_order_stay_so(
+    log: Path, tmp_path: Path, options: dict[str, Any]
+) -> None:
+    times = read_log(rewritten(log, tmp_path / "x.mcap", Layout(options, swapped))).column(
+        "/motion", "time_s"
+    )
     assert np.argmin(np.diff(times)) == 20
 
 
 @pytest.mark.parametrize("what", ["schema", "channel"])
 def test_a_description_that_changes_is_refused(log: Path, tmp_path: Path, what: str) -> None:
-    data = bytearray(rewritten(log, tmp_path / "x.mcap", LAYOUTS["no chunks, no checksums"]).read_bytes())
+    data = bytearray(
+        rewritten(log, tmp_path / "x.mcap", LAYOUTS["no chunks, no checksums"]).read_bytes()
+    )
     place = data.rindex(b"atlas.Felt\x08" if what == "schema" else b"/felt\x08")
     data[place + 4] ^= 1
     (tmp_path / "x.mcap").write_bytes(data)

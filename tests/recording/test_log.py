@@ -41,8 +41,12 @@ def test_vectors(log: Log, topic: str, name: str, values: list[tuple[float, ...]
 
 
 def test_columns(log: Log) -> None:
-    np.testing.assert_array_equal(log.column("/motion", "wheels_limited"), [t.motion.limited[0] for t in TICKS])
-    np.testing.assert_array_equal(log.column("/vehicle", "fy_m_s2"), [t.vehicle.f_B[1] for t in TICKS])
+    np.testing.assert_array_equal(
+        log.column("/motion", "wheels_limited"), [t.motion.limited[0] for t in TICKS]
+    )
+    np.testing.assert_array_equal(
+        log.column("/vehicle", "fy_m_s2"), [t.vehicle.f_B[1] for t in TICKS]
+    )
 
 
 def test_names_that_do_not_exist_are_refused_with_those_that_do(log: Log) -> None:
@@ -65,7 +69,10 @@ def test_a_table_grows() -> None:
     growing.add(np.array([[1.0, 2.0], [3.0, 4.0]]), np.array([5, 6], np.uint64))
     growing.add(np.array([[7.0, 8.0, 9.0]])[:, ::2], np.array([7], np.uint64))
     table = growing.table()
-    assert (table.fields, table.values.tolist()) == (("a", "b"), [[1.0, 2.0], [3.0, 4.0], [7.0, 9.0]])
+    assert (table.fields, table.values.tolist()) == (
+        ("a", "b"),
+        [[1.0, 2.0], [3.0, 4.0], [7.0, 9.0]],
+    )
     assert table.log_times.tolist() == [5, 6, 7]
     assert not table.values.flags.writeable
     assert not table.log_times.flags.writeable

@@ -26,7 +26,9 @@ def same(one: Starts, other: Starts) -> bool:
 
 
 def the_slow_way_is_gone(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "_one_after_the_other", lambda _: pytest.fail("the index was not believed"))
+    monkeypatch.setattr(
+        module, "_one_after_the_other", lambda _: pytest.fail("the index was not believed")
+    )
 
 
 def test_both_ways_find_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -82,7 +84,10 @@ def test_a_cut_chunk_is_found_whatever_the_index_says(size: int) -> None:
 
 
 def test_messages_that_overlap_are_not_believed() -> None:
-    """One message holds another, whose end is the first one's end: every end is a start, but lengths do not add up."""
+    """One message holds another, whose end is the first one's end.
+
+    Every end is a start, but lengths do not add up.
+    """
     inner = record_template(3, bytes(5))
     data = record_template(1, bytes(40)) + record_template(2, inner)
     lying: Starts = {1: np.array([0]), 2: np.array([71]), 3: np.array([102])}
@@ -93,8 +98,15 @@ def test_a_message_that_ends_where_none_starts_is_not_believed() -> None:
     """The second message is hidden, and one inside the first is named, of the same length: lengths do add up."""
     second = record_template(2, bytes(16))
     first = record_template(1, second[:11] + bytes(40))
-    data, start, end = first + second + record_template(1, bytes(5)), len(first), len(first + second)
-    assert same(message_starts(data, {1: np.array([0, end]), 2: np.array([31])}), {1: np.array([0, end]), 2: np.array([start])})
+    data, start, end = (
+        first + second + record_template(1, bytes(5)),
+        len(first),
+        len(first + second),
+    )
+    assert same(
+        message_starts(data, {1: np.array([0, end]), 2: np.array([31])}),
+        {1: np.array([0, end]), 2: np.array([start])},
+    )
 
 
 def test_every_record_of_a_chunk_can_be_looked_at() -> None:
@@ -105,9 +117,13 @@ def test_every_record_of_a_chunk_can_be_looked_at() -> None:
     assert len(windows(b"ab", dtype)) == 0
 
 
-def test_our_own_logs_are_read_by_their_index(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_our_own_logs_are_read_by_their_index(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     the_slow_way_is_gone(monkeypatch)
-    assert len(read_log(record(tmp_path / "x.mcap", tumble(40, 100.0))).tables["/motion"].values) == 40
+    assert (
+        len(read_log(record(tmp_path / "x.mcap", tumble(40, 100.0))).tables["/motion"].values) == 40
+    )
 
 
 def test_an_index_of_more_than_the_chunk_holds_is_not_kept() -> None:

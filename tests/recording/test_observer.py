@@ -17,7 +17,12 @@ from .flights import ATTACHMENTS, HEAD, METADATA, any_ticks, append_all, tumble
 def recorded(path: Path, ticks: list[Tick], **options: object) -> list[Array]:
     """What an observer of the log is given."""
     seen: list[Array] = []
-    everything = {"head_S": HEAD, "metadata": METADATA, "attachments": ATTACHMENTS, "observer": seen.append}
+    everything = {
+        "head_S": HEAD,
+        "metadata": METADATA,
+        "attachments": ATTACHMENTS,
+        "observer": seen.append,
+    }
     recorder = McapRecorder(path, **everything | options)  # type: ignore[arg-type]
     append_all(recorder, ticks)
     recorder.close("ok", "")
@@ -35,7 +40,9 @@ def test_the_numbers_of_every_chunk_are_those_of_the_log(
 ) -> None:
     path = tmp_path_factory.getbasetemp() / "observed.mcap"
     seen = recorded(path, ticks, chunk_ticks=chunk)
-    assert [len(numbers) for numbers in seen if len(numbers)][:-1] == [chunk] * ((len(ticks) - 1) // chunk)
+    assert [len(numbers) for numbers in seen if len(numbers)][:-1] == [chunk] * (
+        (len(ticks) - 1) // chunk
+    )
     np.testing.assert_array_equal(np.concatenate(seen), numbers(read_log(path)))
 
 
@@ -58,13 +65,20 @@ def test_topics_that_are_left_out_are_seen(tmp_path: Path) -> None:
 def test_a_live_log(tmp_path: Path) -> None:
     seen: list[Array] = []
     recorder = McapRecorder(
-        tmp_path / "x.mcap", head_S=HEAD, metadata={}, attachments={}, started_ns=10**18, observer=seen.append
+        tmp_path / "x.mcap",
+        head_S=HEAD,
+        metadata={},
+        attachments={},
+        started_ns=10**18,
+        observer=seen.append,
     )
     width = sum(len(topic.fields) for topic in LIVE_TOPICS[:-1])
     rows = np.random.default_rng(1).random((30, width)).cumsum(axis=0)
     recorder.append_live(rows.tobytes())
     recorder.close("ok", "")
-    np.testing.assert_array_equal(np.concatenate(seen), numbers(read_log(tmp_path / "x.mcap"), LIVE_TOPICS))
+    np.testing.assert_array_equal(
+        np.concatenate(seen), numbers(read_log(tmp_path / "x.mcap"), LIVE_TOPICS)
+    )
 
 
 def test_one_that_fails_is_told_once_and_the_log_is_whole(tmp_path: Path) -> None:
@@ -78,7 +92,9 @@ def test_one_that_fails_is_told_once_and_the_log_is_whole(tmp_path: Path) -> Non
         raise FailingError
 
     path, ticks = tmp_path / "x.mcap", tumble(50, 100.0)
-    recorder = McapRecorder(path, head_S=HEAD, metadata={}, attachments={}, chunk_ticks=20, observer=failing)
+    recorder = McapRecorder(
+        path, head_S=HEAD, metadata={}, attachments={}, chunk_ticks=20, observer=failing
+    )
     with pytest.raises(FailingError):
         append_all(recorder, ticks)
     append_all(recorder, ticks[20:])

@@ -26,14 +26,21 @@ from .flights import ATTACHMENTS, METADATA, any_ticks, record, tumble
 
 @settings(max_examples=40, deadline=None)
 @given(any_ticks())
-def test_everything_is_read_back(tmp_path_factory: pytest.TempPathFactory, ticks: list[Tick]) -> None:
+def test_everything_is_read_back(
+    tmp_path_factory: pytest.TempPathFactory, ticks: list[Tick]
+) -> None:
     log = read_log(record(tmp_path_factory.getbasetemp() / "back.mcap", ticks))
     rows = np.hstack([log.tables[topic.name].values for topic in TOPICS[:4]])
     np.testing.assert_array_equal(rows, [tick_row(tick) for tick in ticks])
-    assert [(topic.name, topic.fields) for topic in TOPICS] == [(name, table.fields) for name, table in log.tables.items()]
+    assert [(topic.name, topic.fields) for topic in TOPICS] == [
+        (name, table.fields) for name, table in log.tables.items()
+    ]
     assert log.metadata == {**METADATA, "result": "ok", "reason": "end of test"}
     assert log.attachments == ATTACHMENTS
-    assert log.statuses == (Status(0.0, "running", ""), Status(ticks[-1].vehicle.time, "done", "end of test"))
+    assert log.statuses == (
+        Status(0.0, "running", ""),
+        Status(ticks[-1].vehicle.time, "done", "end of test"),
+    )
 
 
 def test_a_log_without_some_topics(tmp_path: Path) -> None:
@@ -55,7 +62,11 @@ def refused(path: Path, data: bytes, why: str) -> str:
 def test_any_single_flipped_bit_is_found(tmp_path: Path) -> None:
     data = record(tmp_path / "good.mcap", tumble(6, 100.0)).read_bytes()
     randomly = random.Random(2)
-    for position in (*range(60), *randomly.sample(range(len(data)), 400), *range(len(data) - 60, len(data))):
+    for position in (
+        *range(60),
+        *randomly.sample(range(len(data)), 400),
+        *range(len(data) - 60, len(data)),
+    ):
         broken = bytearray(data)
         broken[position] ^= 1 << randomly.randrange(8)
         assert broken != data
@@ -121,7 +132,10 @@ def crafted(messages: bytes, packed: bytes | None = None, claimed: int | None = 
         container.add_chunk(EncodedChunk(messages, index))
     else:
         size = len(messages) if claimed is None else claimed
-        body = struct.pack("<QQQII4sQ", 0, 0, size, zlib.crc32(messages), 4, b"zstd", len(packed)) + packed
+        body = (
+            struct.pack("<QQQII4sQ", 0, 0, size, zlib.crc32(messages), 4, b"zstd", len(packed))
+            + packed
+        )
         container._put(struct.pack("<BQ", 6, len(body)) + body)
     container.finish()
     return stream.getvalue()
@@ -142,12 +156,18 @@ def test_a_crafted_log_is_read(tmp_path: Path) -> None:
     [
         (GOOD[:31] + b"\x0a" + GOOD[32:], "a message of /felt is damaged"),
         (record_template(1, b"\x09" + bytes(7)), "a message of /felt is damaged"),
-        (record_template(1, b"\x0d" + bytes(4)), "a message of /felt is not of its schema 'atlas.Felt'"),
+        (
+            record_template(1, b"\x0d" + bytes(4)),
+            "a message of /felt is not of its schema 'atlas.Felt'",
+        ),
         (record_template(7, b""), "messages of channel 7, which the log does not describe"),
         (GOOD[:-1], "the last message of a chunk is cut"),
         (GOOD + b"\x05", "the last record of a chunk is cut"),
         (GOOD + struct.pack("<BQ", 7, 0), "the last record of a chunk is cut"),
-        (struct.pack("<BQH", 5, 2, 1) * 100, "a message in a chunk has 2 bytes, allowed: at least 22"),
+        (
+            struct.pack("<BQH", 5, 2, 1) * 100,
+            "a message in a chunk has 2 bytes, allowed: at least 22",
+        ),
     ],
 )
 def test_messages_of_another_layout_are_refused(tmp_path: Path, messages: bytes, why: str) -> None:
@@ -165,7 +185,9 @@ def test_a_chunk_that_would_unpack_to_a_gigabyte_is_refused(tmp_path: Path) -> N
 
 def test_a_chunk_that_is_not_compressed_data_is_refused(tmp_path: Path) -> None:
     refused(tmp_path / "x.mcap", crafted(GOOD, b"hello, world"), "cannot be unpacked")
-    refused(tmp_path / "x.mcap", crafted(GOOD, zstandard.compress(GOOD[::-1])), "checksum of the chunk")
+    refused(
+        tmp_path / "x.mcap", crafted(GOOD, zstandard.compress(GOOD[::-1])), "checksum of the chunk"
+    )
 
 
 def test_another_compression_is_refused_by_name(tmp_path: Path) -> None:
@@ -182,7 +204,9 @@ def test_another_compression_is_refused_by_name(tmp_path: Path) -> None:
 def test_a_damaged_attachment_is_refused_by_its_own_checksum(tmp_path: Path) -> None:
     """Before anything is done with it: the checksum of the whole comes at the end."""
     stream = io.BytesIO()
-    container = Container(lambda data: stream.write(data.replace(b"travel_m = 1.0", b"travel_m = 9.0")))
+    container = Container(
+        lambda data: stream.write(data.replace(b"travel_m = 1.0", b"travel_m = 9.0"))
+    )
     container.add_attachment("platform.toml", "application/toml", b"travel_m = 1.0")
     container.add_metadata("atlas.run", {})
     container.finish()
@@ -207,10 +231,14 @@ def test_a_state_of_other_types_is_refused(tmp_path: Path) -> None:
     stream = io.BytesIO()
     container = Container(stream.write)
     container.add_channel(
-        "/status", "atlas.Status", flat_schema(Topic("/status", "atlas.Status", ("time_s", "state", "reason")))
+        "/status",
+        "atlas.Status",
+        flat_schema(Topic("/status", "atlas.Status", ("time_s", "state", "reason"))),
     )
     container.add_metadata("atlas.run", {})
-    container.add_chunk(EncodedChunk(flat_template(1, 3).tobytes(), {1: np.zeros((1, 2), dtype=np.uint64)}))
+    container.add_chunk(
+        EncodedChunk(flat_template(1, 3).tobytes(), {1: np.zeros((1, 2), dtype=np.uint64)})
+    )
     container.finish()
     refused(tmp_path / "x.mcap", stream.getvalue(), "is not a time, a state and a reason")
 
@@ -224,7 +252,11 @@ def test_a_schema_that_makes_no_sense_is_one_line(tmp_path: Path) -> None:
 
 
 def test_a_record_that_claims_more_than_allowed_is_refused(tmp_path: Path) -> None:
-    refused(tmp_path / "x.mcap", b"\x89MCAP0\r\n" + struct.pack("<BQ", 1, 2**40), "a record claims 1099511627776 bytes")
+    refused(
+        tmp_path / "x.mcap",
+        b"\x89MCAP0\r\n" + struct.pack("<BQ", 1, 2**40),
+        "a record claims 1099511627776 bytes",
+    )
 
 
 def test_added_fields_and_topics_are_read(tmp_path: Path) -> None:
@@ -233,7 +265,9 @@ def test_added_fields_and_topics_are_read(tmp_path: Path) -> None:
     added = Topic("/torque", "atlas.Torque", tuple(f"t{i}_n_m" for i in range(20)))
     container.add_channel(added.name, added.schema, flat_schema(added))
     container.add_metadata("atlas.run", {})
-    container.add_chunk(EncodedChunk(flat_template(1, 20).tobytes() * 2, {1: np.zeros((2, 2), dtype=np.uint64)}))
+    container.add_chunk(
+        EncodedChunk(flat_template(1, 20).tobytes() * 2, {1: np.zeros((2, 2), dtype=np.uint64)})
+    )
     container.finish()
     (tmp_path / "x.mcap").write_bytes(stream.getvalue())
     assert read_log(tmp_path / "x.mcap").tables["/torque"].fields == added.fields

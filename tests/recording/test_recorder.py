@@ -1,4 +1,7 @@
-"""Ticks, states and files of a run in the log, as anyone sees them; our own reader takes no part here."""
+"""Ticks, states and files of a run in the log, as anyone sees them.
+
+Our own reader takes no part here.
+"""
 
 import os
 from collections import Counter
@@ -53,7 +56,12 @@ def check_wheels(message: Any, tick: Tick) -> None:
     assert (message.a1_rad_s2, message.a2_rad_s2, message.a3_rad_s2) == tick.wheels.acceleration
 
 
-CHECKS = {"/vehicle": check_vehicle, "/cue": check_cue, "/motion": check_motion, "/wheels": check_wheels}
+CHECKS = {
+    "/vehicle": check_vehicle,
+    "/cue": check_cue,
+    "/motion": check_motion,
+    "/wheels": check_wheels,
+}
 
 
 @settings(max_examples=40, deadline=None)
@@ -69,7 +77,9 @@ def test_every_field_is_read_back_as_it_was_put_in(
         latest = log_time
         if topic in CHECKS:
             tick = ticks[seen[topic]]
-            assert abs(log_time - EPOCH_NS - Fraction(tick.vehicle.time) * 10**9) <= Fraction(1, 2) + Fraction(1, 10**6)
+            assert abs(log_time - EPOCH_NS - Fraction(tick.vehicle.time) * 10**9) <= Fraction(
+                1, 2
+            ) + Fraction(1, 10**6)
             CHECKS[topic](message, tick)
         seen[topic] += 1
     assert {topic: seen[topic] for topic in CHECKS} == dict.fromkeys(CHECKS, len(ticks))
@@ -90,16 +100,39 @@ def test_transforms_carry_stage_position_and_cabin_orientation(
         if topic == "/tf":
             motion = by_time[log_time]  # a transform follows its tick
             stage, cabin = message.transforms
-            assert [(t.parent_frame_id, t.child_frame_id) for t in (stage, cabin)] == [("base", "stage"), ("stage", "cabin")]
-            assert {t.timestamp.seconds * 10**9 + t.timestamp.nanos for t in (stage, cabin)} == {log_time}
+            assert [(t.parent_frame_id, t.child_frame_id) for t in (stage, cabin)] == [
+                ("base", "stage"),
+                ("stage", "cabin"),
+            ]
+            assert {t.timestamp.seconds * 10**9 + t.timestamp.nanos for t in (stage, cabin)} == {
+                log_time
+            }
             assert (stage.translation.x, stage.translation.y, stage.translation.z) == motion.p_WS_W
-            assert (stage.rotation.w, stage.rotation.x, stage.rotation.y, stage.rotation.z) == (1.0, 0.0, 0.0, 0.0)
-            assert (cabin.translation.x, cabin.translation.y, cabin.translation.z) == (0.0, 0.0, 0.0)
-            assert (cabin.rotation.w, cabin.rotation.x, cabin.rotation.y, cabin.rotation.z) == motion.q_WS
+            assert (stage.rotation.w, stage.rotation.x, stage.rotation.y, stage.rotation.z) == (
+                1.0,
+                0.0,
+                0.0,
+                0.0,
+            )
+            assert (cabin.translation.x, cabin.translation.y, cabin.translation.z) == (
+                0.0,
+                0.0,
+                0.0,
+            )
+            assert (
+                cabin.rotation.w,
+                cabin.rotation.x,
+                cabin.rotation.y,
+                cabin.rotation.z,
+            ) == motion.q_WS
 
 
-@pytest.mark.parametrize(("rate_hz", "transforms"), [(1000.0, 60), (120.0, 60), (960.0, 60), (60.0, 60), (50.0, 50)])
-def test_transforms_come_at_sixty_hertz_at_most(tmp_path: Path, rate_hz: float, transforms: int) -> None:
+@pytest.mark.parametrize(
+    ("rate_hz", "transforms"), [(1000.0, 60), (120.0, 60), (960.0, 60), (60.0, 60), (50.0, 50)]
+)
+def test_transforms_come_at_sixty_hertz_at_most(
+    tmp_path: Path, rate_hz: float, transforms: int
+) -> None:
     path = record(tmp_path / "rate.mcap", tumble(int(rate_hz), rate_hz), chunk_ticks=7)
     assert sum(topic == "/tf" for topic, _, _ in decoded(path)) == transforms
 
@@ -125,15 +158,27 @@ def test_status_stands_after_the_ticks_up_to_its_time(tmp_path: Path) -> None:
     assert sum(topic == "/motion" for topic, _, _ in messages[:place]) == 4
 
 
-def test_a_state_between_two_ticks_stands_between_them_and_after_the_transform(tmp_path: Path) -> None:
+def test_a_state_between_two_ticks_stands_between_them_and_after_the_transform(
+    tmp_path: Path,
+) -> None:
     recorder = open_recorder(tmp_path / "s.mcap", skip_topics=[topic.name for topic in TOPICS[1:]])
     append_all(recorder, tumble(3, 10.0))
     for time in (0.16, 0.14, 0.5):
         recorder.status(time, "", "")
     recorder.close("ok", "")
-    times = [(topic, round((log_time - EPOCH_NS) / 1e9, 6)) for topic, log_time, _ in decoded(tmp_path / "s.mcap")]
+    times = [
+        (topic, round((log_time - EPOCH_NS) / 1e9, 6))
+        for topic, log_time, _ in decoded(tmp_path / "s.mcap")
+    ]
     ticks = [[("/vehicle", 0.1 * k), ("/tf", 0.1 * k)] for k in range(3)]
-    assert times == [*ticks[0], *ticks[1], ("/status", 0.14), ("/status", 0.16), *ticks[2], ("/status", 0.5)]
+    assert times == [
+        *ticks[0],
+        *ticks[1],
+        ("/status", 0.14),
+        ("/status", 0.16),
+        *ticks[2],
+        ("/status", 0.5),
+    ]
 
 
 def test_a_state_without_ticks_is_kept(tmp_path: Path) -> None:
@@ -151,17 +196,30 @@ def test_metadata_and_attachments(tmp_path: Path) -> None:
         (metadata,) = reader.iter_metadata()
         attachments = list(reader.iter_attachments())
         assert reader.get_header().library == "atlas_cueing"
-    assert (metadata.name, metadata.metadata) == ("atlas.run", {**METADATA, "result": "ok", "reason": "end of test"})
-    assert {a.name: (a.media_type, a.data) for a in attachments} == {k: ("application/toml", v) for k, v in ATTACHMENTS.items()}
+    assert (metadata.name, metadata.metadata) == (
+        "atlas.run",
+        {**METADATA, "result": "ok", "reason": "end of test"},
+    )
+    assert {a.name: (a.media_type, a.data) for a in attachments} == {
+        k: ("application/toml", v) for k, v in ATTACHMENTS.items()
+    }
     assert all(a.log_time == a.create_time == EPOCH_NS for a in attachments)
 
 
 def test_topics_can_be_left_out(tmp_path: Path) -> None:
-    path = record(tmp_path / "x.mcap", tumble(12, 100.0), skip_topics=("/cue", "/felt", "/tf", "/status"))
-    assert Counter(topic for topic, _, _ in decoded(path)) == {"/vehicle": 12, "/motion": 12, "/wheels": 12}
+    path = record(
+        tmp_path / "x.mcap", tumble(12, 100.0), skip_topics=("/cue", "/felt", "/tf", "/status")
+    )
+    assert Counter(topic for topic, _, _ in decoded(path)) == {
+        "/vehicle": 12,
+        "/motion": 12,
+        "/wheels": 12,
+    }
 
 
-def test_bytes_are_on_the_disk_before_the_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_bytes_are_on_the_disk_before_the_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     recorder, calls = open_recorder(tmp_path / "x.mcap"), []
 
     def watch(name: str) -> None:
@@ -175,7 +233,9 @@ def test_bytes_are_on_the_disk_before_the_name(tmp_path: Path, monkeypatch: pyte
 
 
 def test_the_same_run_gives_the_same_bytes(tmp_path: Path) -> None:
-    first, second = (record(tmp_path / f"{k}.mcap", tumble(40, 1000.0)).read_bytes() for k in range(2))
+    first, second = (
+        record(tmp_path / f"{k}.mcap", tumble(40, 1000.0)).read_bytes() for k in range(2)
+    )
     other = record(tmp_path / "other.mcap", tumble(41, 1000.0)).read_bytes()
     assert first == second
     assert first != other
@@ -191,7 +251,12 @@ def test_a_log_has_its_name_only_when_it_is_complete(tmp_path: Path) -> None:
 
 def test_values_that_overflowed_are_recorded_as_they_are(tmp_path: Path) -> None:
     tick = tumble(1, 1.0)[0]
-    wild = Tick(tick.vehicle, tick.cue, replace(tick.motion, w_WS_W=(1e200, float("inf"), float("nan"))), tick.wheels)
+    wild = Tick(
+        tick.vehicle,
+        tick.cue,
+        replace(tick.motion, w_WS_W=(1e200, float("inf"), float("nan"))),
+        tick.wheels,
+    )
     path = record(tmp_path / "x.mcap", [wild])
     (motion,) = [message for topic, _, message in decoded(path) if topic == "/motion"]
     assert vector(motion, "w", "rad_s")[:2] == (1e200, float("inf"))

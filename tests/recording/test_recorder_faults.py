@@ -38,10 +38,14 @@ def test_leaving_out_every_topic_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("chunk_ticks", [1, 2, 4])
-def test_ticks_that_do_not_come_one_after_the_other_are_refused(tmp_path: Path, chunk_ticks: int) -> None:
+def test_ticks_that_do_not_come_one_after_the_other_are_refused(
+    tmp_path: Path, chunk_ticks: int
+) -> None:
     ticks = tumble(4, 10.0)
     recorder = open_recorder(tmp_path / "x.mcap", chunk_ticks=chunk_ticks)
-    with pytest.raises(OutputError, match=r"tick at time_s = 0\.1, allowed: 0 <= time_s <= 1e\+09, after 0\.1"):
+    with pytest.raises(
+        OutputError, match=r"tick at time_s = 0\.1, allowed: 0 <= time_s <= 1e\+09, after 0\.1"
+    ):
         append_all(recorder, [ticks[0], ticks[1], ticks[1], ticks[2]])
 
 
@@ -57,7 +61,9 @@ def test_an_unfinished_log_keeps_its_complete_chunks(tmp_path: Path, leave: Any)
     assert not (tmp_path / "x.mcap").exists()
     found: list[Any] = []
     with pytest.raises(EndOfFile):
-        found.extend(message for topic, _, message in decoded(tmp_path / "x.mcap.part") if topic == "/motion")
+        found.extend(
+            message for topic, _, message in decoded(tmp_path / "x.mcap.part") if topic == "/motion"
+        )
     assert [message.time_s for message in found] == [tick.motion.time for tick in ticks[:15]]
 
 
@@ -83,7 +89,9 @@ def test_a_closed_recorder_takes_nothing_more(tmp_path: Path) -> None:
 def test_times_that_no_log_can_hold_are_refused(tmp_path: Path, time: float) -> None:
     recorder = open_recorder(tmp_path / "x.mcap", chunk_ticks=1)
     tick = tumble(1, 1.0)[0]
-    wrong = Tick(VehicleState(time, tick.vehicle.q_NB, ZERO, ZERO), tick.cue, tick.motion, tick.wheels)
+    wrong = Tick(
+        VehicleState(time, tick.vehicle.q_NB, ZERO, ZERO), tick.cue, tick.motion, tick.wheels
+    )
     with pytest.raises(OutputError, match=r"time_s .* allowed: 0 <= time_s <= 1e"):
         recorder.append(wrong)
     with pytest.raises(OutputError, match="time_s"):
@@ -103,7 +111,10 @@ def test_a_full_disk_at_the_start(tmp_path: Path) -> None:
 
 
 def test_the_first_write_error_is_latched(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The disk has room again after the first error; without the latch the log would have a hole and look complete."""
+    """The disk has room again after the first error.
+
+    Without the latch the log would have a hole and look complete.
+    """
     recorder = open_recorder(tmp_path / "x.mcap", chunk_ticks=5)
     ticks = tumble(30, 100.0)
     append_all(recorder, ticks[:5])
@@ -150,7 +161,10 @@ def test_a_failed_rename_leaves_the_part(tmp_path: Path) -> None:
 
 
 def test_two_recorders_of_one_log(tmp_path: Path) -> None:
-    """The second is refused and harms nothing; once the first has let go, its .part may be replaced."""
+    """The second is refused and harms nothing.
+
+    Once the first has let go, its .part may be replaced.
+    """
     path = tmp_path / "x.mcap"
     first = McapRecorder(path, head_S=HEAD, metadata={}, attachments={}, chunk_ticks=1)
     first.append(tumble(1, 10.0)[0])
@@ -187,8 +201,14 @@ def test_a_link_is_followed_and_its_part_lies_beside_the_real_file(tmp_path: Pat
 def test_a_part_that_is_no_file_is_left_alone(tmp_path: Path, what: str) -> None:
     part, precious = tmp_path / "x.mcap.part", tmp_path / "precious"
     precious.write_text("kept")
-    {"link": lambda: part.symlink_to(precious), "fifo": lambda: os.mkfifo(part), "folder": part.mkdir}[what]()
-    with pytest.raises(OutputError, match=r"x.mcap: .*(symbolic link|no regular file|No such device|directory)"):
+    {
+        "link": lambda: part.symlink_to(precious),
+        "fifo": lambda: os.mkfifo(part),
+        "folder": part.mkdir,
+    }[what]()
+    with pytest.raises(
+        OutputError, match=r"x.mcap: .*(symbolic link|no regular file|No such device|directory)"
+    ):
         open_recorder(tmp_path / "x.mcap")
     assert precious.read_text() == "kept"
 

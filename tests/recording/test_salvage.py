@@ -66,7 +66,10 @@ def test_a_chunk_without_messages_is_left_out(tmp_path: Path) -> None:
     """Whole, by its checksum, and yet there is no first and last time in it."""
     data = struct.pack("<BQ2x", 7, 2) * 3
     packed = zstandard.compress(data)
-    body = struct.pack("<QQQII4sQ", 0, 0, len(data), zlib.crc32(data), 4, b"zstd", len(packed)) + packed
+    body = (
+        struct.pack("<QQQII4sQ", 0, 0, len(data), zlib.crc32(data), 4, b"zstd", len(packed))
+        + packed
+    )
     log = record(tmp_path / "log.mcap", tumble(20, 100.0))
     whole = log.read_bytes()
     place = whole.index(b"zstd") - 41

@@ -27,7 +27,8 @@ def test_schema_of_the_wheels_as_text() -> None:
     (file,) = FileDescriptorSet.FromString(schema_of("/wheels")[1]).file
     names = ("time_s", "w1_rad_s", "w2_rad_s", "w3_rad_s", "a1_rad_s2", "a2_rad_s2", "a3_rad_s2")
     fields = "".join(
-        f'  field {{\n    name: "{name}"\n    number: {number}\n    label: LABEL_OPTIONAL\n    type: TYPE_DOUBLE\n  }}\n'
+        f'  field {{\n    name: "{name}"\n    number: {number}\n    label: LABEL_OPTIONAL\n   '
+        " type: TYPE_DOUBLE\n  }\n"
         for number, name in enumerate(names, 1)
     )
     assert str(file) == f'{WHEELS}{fields}}}\nsyntax: "proto3"\n'
@@ -41,14 +42,19 @@ def test_fields_of_a_flat_schema(topic: Topic) -> None:
 
 def test_status_has_strings_and_round_trips() -> None:
     name, schema = schema_of(STATUS)
-    kinds = {f.name: f.type for f in FileDescriptorSet.FromString(schema).file[0].message_type[0].field}
+    kinds = {
+        f.name: f.type for f in FileDescriptorSet.FromString(schema).file[0].message_type[0].field
+    }
     assert kinds == {
         "time_s": FieldDescriptorProto.TYPE_DOUBLE,
         "state": FieldDescriptorProto.TYPE_STRING,
         "reason": FieldDescriptorProto.TYPE_STRING,
     }
     status = message_class(name, schema)
-    assert status.FromString(status(time_s=1.5, state="a", reason="ü").SerializeToString()).reason == "ü"
+    assert (
+        status.FromString(status(time_s=1.5, state="a", reason="ü").SerializeToString()).reason
+        == "ü"
+    )
 
 
 def test_messages_that_are_not_flat_doubles_are_told_apart() -> None:
@@ -57,7 +63,9 @@ def test_messages_that_are_not_flat_doubles_are_told_apart() -> None:
     assert flat_fields("atlas.Other", flat_schema(TOPICS[0])) is None
 
 
-@pytest.mark.parametrize("change", [{"number": 9}, {"type": FieldDescriptorProto.TYPE_FLOAT}, {"label": 3}])
+@pytest.mark.parametrize(
+    "change", [{"number": 9}, {"type": FieldDescriptorProto.TYPE_FLOAT}, {"label": 3}]
+)
 def test_a_field_out_of_the_ordinary_is_not_flat(change: dict[str, int]) -> None:
     files = FileDescriptorSet.FromString(flat_schema(TOPICS[3]))
     field = files.file[0].message_type[0].field[2]

@@ -23,12 +23,17 @@ def test_summary_agrees_with_the_messages(tmp_path: Path) -> None:
     assert summary is not None
     assert summary.statistics is not None
     topics = {channel.id: channel.topic for channel in summary.channels.values()}
-    counts = {topics[key]: count for key, count in summary.statistics.channel_message_counts.items()}
+    counts = {
+        topics[key]: count for key, count in summary.statistics.channel_message_counts.items()
+    }
     messages = list(decoded(path))
     times = [log_time for _, log_time, _ in messages]
     assert counts == Counter(topic for topic, _, _ in messages)
     assert summary.statistics.message_count == len(messages)
-    assert (summary.statistics.message_start_time, summary.statistics.message_end_time) == (min(times), max(times))
+    assert (summary.statistics.message_start_time, summary.statistics.message_end_time) == (
+        min(times),
+        max(times),
+    )
     assert (summary.statistics.chunk_count, len(summary.chunk_indexes)) == (5, 5)
     assert (summary.statistics.attachment_count, summary.statistics.metadata_count) == (2, 1)
     assert summary.statistics.channel_count == summary.statistics.schema_count == len(TOPICS) + 2
@@ -55,8 +60,13 @@ def test_indexes_point_at_every_message(tmp_path: Path) -> None:
         messages = zstandard.decompress(chunk.data)
         assert len(messages) == chunk_index.uncompressed_size
         assert len(chunk.data) == chunk_index.compressed_size
-        end = chunk_index.chunk_start_offset + chunk_index.chunk_length + chunk_index.message_index_length
-        assert data[end] in (Opcode.CHUNK, Opcode.METADATA)  # what comes after the last message index
+        end = (
+            chunk_index.chunk_start_offset
+            + chunk_index.chunk_length
+            + chunk_index.message_index_length
+        )
+        # what comes after the last message index
+        assert data[end] in (Opcode.CHUNK, Opcode.METADATA)
         times = []
         for channel, offset in chunk_index.message_index_offsets.items():
             index = MessageIndex.read(record_at(data, offset, Opcode.MESSAGE_INDEX))
@@ -65,7 +75,10 @@ def test_indexes_point_at_every_message(tmp_path: Path) -> None:
                 message = Message.read(record_at(messages, start, Opcode.MESSAGE), 22)
                 assert (message.channel_id, message.log_time) == (channel, log_time)
                 times.append(log_time)
-        assert (chunk_index.message_start_time, chunk_index.message_end_time) == (min(times), max(times))
+        assert (chunk_index.message_start_time, chunk_index.message_end_time) == (
+            min(times),
+            max(times),
+        )
         indexed += len(times)
     assert summary.statistics is not None
     assert indexed == summary.statistics.message_count
@@ -83,7 +96,10 @@ def test_summary_offsets_point_at_their_groups(tmp_path: Path) -> None:
         position += 9 + 17
     ends = [start + length for start, length in groups]
     assert len(groups) == 6
-    assert [footer.summary_start, *ends] == [*(start for start, _ in groups), footer.summary_offset_start]
+    assert [footer.summary_start, *ends] == [
+        *(start for start, _ in groups),
+        footer.summary_offset_start,
+    ]
 
 
 def test_a_log_without_ticks_is_complete(tmp_path: Path) -> None:
@@ -91,4 +107,6 @@ def test_a_log_without_ticks_is_complete(tmp_path: Path) -> None:
     recorder.close("vehicle_failed", "no trim")
     assert list(decoded(tmp_path / "empty.mcap")) == []
     with (tmp_path / "empty.mcap").open("rb") as stream:
-        assert next(iter(make_reader(stream).iter_metadata())).metadata["result"] == "vehicle_failed"
+        assert (
+            next(iter(make_reader(stream).iter_metadata())).metadata["result"] == "vehicle_failed"
+        )

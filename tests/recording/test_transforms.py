@@ -36,10 +36,14 @@ def test_every_field_is_read_by_protobuf() -> None:
             transform.timestamp.FromNanoseconds(times[k])
         found = MESSAGE.FromString(record.tobytes()[31:])
         stage, cabin = expected.transforms
-        stage.translation.x, stage.translation.y, stage.translation.z = (100.0 + 3 * k + i for i in range(3))
+        stage.translation.x, stage.translation.y, stage.translation.z = (
+            100.0 + 3 * k + i for i in range(3)
+        )
         stage.rotation.w = 1.0
         cabin.translation.SetInParent()
-        cabin.rotation.w, cabin.rotation.x, cabin.rotation.y, cabin.rotation.z = (4.0 * k + i for i in range(4))
+        cabin.rotation.w, cabin.rotation.x, cabin.rotation.y, cabin.rotation.z = (
+            4.0 * k + i for i in range(4)
+        )
         assert found == expected
 
 
@@ -47,6 +51,17 @@ def test_field_numbers_are_foxgloves() -> None:
     transform = MESSAGE.DESCRIPTOR.fields_by_name["transforms"].message_type
     numbers = {field.name: field.number for field in transform.fields}
     assert transform.full_name == "foxglove.FrameTransform"
-    assert numbers == {"timestamp": 1, "parent_frame_id": 2, "child_frame_id": 3, "translation": 4, "rotation": 5}
+    assert numbers == {
+        "timestamp": 1,
+        "parent_frame_id": 2,
+        "child_frame_id": 3,
+        "translation": 4,
+        "rotation": 5,
+    }
     quaternion = transform.fields_by_name["rotation"].message_type
-    assert {field.name: field.number for field in quaternion.fields} == {"x": 1, "y": 2, "z": 3, "w": 4}
+    assert {field.name: field.number for field in quaternion.fields} == {
+        "x": 1,
+        "y": 2,
+        "z": 3,
+        "w": 4,
+    }

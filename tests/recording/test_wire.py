@@ -39,9 +39,14 @@ def test_log_times_do_not_lose_nanoseconds_late_in_a_flight() -> None:
 
 
 @settings(deadline=None)
-@given(st.lists(st.floats(0.0, LATEST_S), min_size=1, max_size=20), st.integers(1_600_000_000 * 10**9, 2_000_000_000 * 10**9))
+@given(
+    st.lists(st.floats(0.0, LATEST_S), min_size=1, max_size=20),
+    st.integers(1_600_000_000 * 10**9, 2_000_000_000 * 10**9),
+)
 def test_live_log_times_count_from_the_start(elapsed: list[float], started: int) -> None:
-    for time, found in zip(elapsed, live_log_times(np.array(elapsed), started).tolist(), strict=True):
+    for time, found in zip(
+        elapsed, live_log_times(np.array(elapsed), started).tolist(), strict=True
+    ):
         assert abs(found - started - Fraction(time) * 10**9) <= Fraction(1, 2) + Fraction(1, 10**6)
 
 

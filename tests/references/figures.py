@@ -1,4 +1,7 @@
-"""The pinned figures: how every bundled scenario begins. `tools/update_references` writes them, `test_references` compares."""
+"""The pinned figures: how every bundled scenario begins.
+
+`tools/update_references` writes them, `test_references` compares.
+"""
 
 import json
 import tomllib
@@ -12,7 +15,8 @@ SCENARIOS = Path(__file__).parents[2] / "scenarios"
 REFERENCES = Path(__file__).with_name("figures.json")
 LONGEST = 12.0  # s of each flight: every scenario is flown on every check, so that must be cheap
 
-# What a change of vehicle, cueing, smoothing or wheels cannot hide from; other metrics may come and go.
+# What a change of vehicle, cueing, smoothing or wheels cannot hide from; other metrics may come and
+# go.
 PINNED = (
     "ticks",
     "force_rms_m_s2",
@@ -33,15 +37,20 @@ PINNED = (
     "stage_acceleration_max_m_s2",
 )
 
-# Relative, or absolute in SI for figures below 1. Runs repeat to the last bit on one machine; another C library rounds
-# otherwise in the last bit, which a flight of seconds lets grow to 1e-9, and shares of ticks to one tick in a thousand. A
-# change of a thousandth is far below what a rider could feel and far above both.
+# Relative, or absolute in SI for figures below 1. Runs repeat to the last bit on one machine;
+# another C library rounds otherwise in the last bit, which a flight of seconds lets grow to 1e-9,
+# and shares of ticks to one tick in a thousand. A change of a thousandth is far below what a rider
+# could feel and far above both.
 TOLERANCE = 1e-3
 
 
 def names() -> list[str]:
     """Every bundled scenario that is one run; a sweep stands for many."""
-    return sorted(path.stem for path in SCENARIOS.glob("*.toml") if "sweep" not in tomllib.loads(path.read_text()))
+    return sorted(
+        path.stem
+        for path in SCENARIOS.glob("*.toml")
+        if "sweep" not in tomllib.loads(path.read_text())
+    )
 
 
 def pinned() -> dict[str, dict[str, float]]:
@@ -60,7 +69,9 @@ def flown(name: str) -> dict[str, float]:
     return {figure: result.evaluation.metrics[figure] for figure in PINNED}
 
 
-def differences(was: dict[str, float], now: dict[str, float]) -> dict[str, tuple[float | None, float | None]]:
+def differences(
+    was: dict[str, float], now: dict[str, float]
+) -> dict[str, tuple[float | None, float | None]]:
     """Figures that differ by more than the tolerance, or that only one has: (was, now)."""
     return {
         figure: (was.get(figure), now.get(figure))

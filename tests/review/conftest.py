@@ -5,7 +5,8 @@ import pytest
 from atlas_cueing.run import run_scenario
 from atlas_cueing.scenario import load_scenario
 
-# Six seconds of an F-16 that begins to roll, with a rider whose head is off the centre: everything moves.
+# Six seconds of an F-16 that begins to roll, with a rider whose head is off the centre: everything
+# moves.
 FLIGHT = """
 name = "roll"
 duration_s = 6.0
@@ -30,10 +31,15 @@ SCENARIOS = Path(__file__).parents[2] / "scenarios"
 
 def fly(folder: Path, *settings: str, text: str = FLIGHT, name: str = "flight.mcap") -> Path:
     """A log of the flight, in `folder`."""
-    preset = (Path(__file__).parents[2] / "atlas_cueing/scenario/presets/atlas-2.9m.toml").read_text()
+    preset = (
+        Path(__file__).parents[2] / "atlas_cueing/scenario/presets/atlas-2.9m.toml"
+    ).read_text()
     (folder / "platform.toml").write_text(preset)
     (folder / "s.toml").write_text(text)
-    result = run_scenario(load_scenario(folder / "s.toml", ("platform.rider.head_m=[0.1,0.05,0.3]", *settings)), folder / name)
+    result = run_scenario(
+        load_scenario(folder / "s.toml", ("platform.rider.head_m=[0.1,0.05,0.3]", *settings)),
+        folder / name,
+    )
     assert result.result == "ok"
     return folder / name
 

@@ -17,7 +17,9 @@ CHUNK_TICKS = 512
 
 def columns_of(log: Log) -> Columns:
     """Writable copies of all columns."""
-    return {f"{t} {f}": log.column(t, f).copy() for t, table in log.tables.items() for f in table.fields}
+    return {
+        f"{t} {f}": log.column(t, f).copy() for t, table in log.tables.items() for f in table.fields
+    }
 
 
 def corrupted(
@@ -29,12 +31,17 @@ def corrupted(
     attachments: Mapping[str, bytes] | None = None,
     states: list[tuple[float, str, str]] | None = None,
 ) -> Path:
-    """Write `source` with columns changed in place and other metadata, files or states; fails if all stays as it was."""
+    """Write `source` with columns changed in place and other metadata, files or states.
+
+    Fails if all stays as it was.
+    """
     log = read_log(source)
     columns, before = columns_of(log), columns_of(log)
     change(columns)
     same = all(np.array_equal(columns[name], before[name], equal_nan=True) for name in before)
-    assert not same or any(x is not None for x in (metadata, attachments, states)), "the corrupter changed nothing"
+    assert not same or any(x is not None for x in (metadata, attachments, states)), (
+        "the corrupter changed nothing"
+    )
     told = states if states is not None else [(s.time, s.state, s.reason) for s in log.statuses]
     files = {**log.attachments, **(attachments or {})}
     write(output, log, columns, {**log.metadata, **(metadata or {})}, files, told)
@@ -49,16 +56,27 @@ def write(
     attachments: Mapping[str, bytes],
     states: list[tuple[float, str, str]],
 ) -> None:
-    """A finished log of any columns, whether they make sense or not: it has no opinion, as the recorder has."""
+    """A finished log of any columns, whether they make sense or not.
+
+    It has no opinion, as the recorder has.
+    """
     with output.open("wb") as file:
         container = Container(file.write)
-        channels = {topic: container.add_channel(topic, *schema_of(topic)) for topic in [*log.tables, STATUS]}
+        channels = {
+            topic: container.add_channel(topic, *schema_of(topic))
+            for topic in [*log.tables, STATUS]
+        }
         for name, content in attachments.items():
             container.add_attachment(name, "application/toml", content)
-        blocks = {t: np.column_stack([columns[f"{t} {f}"] for f in table.fields]) for t, table in log.tables.items()}
+        blocks = {
+            t: np.column_stack([columns[f"{t} {f}"] for f in table.fields])
+            for t, table in log.tables.items()
+        }
         for start in range(0, max(len(block) for block in blocks.values()), CHUNK_TICKS):
             parts = {channels[t]: block[start : start + CHUNK_TICKS] for t, block in blocks.items()}
-            container.add_chunk(_chunk({channel: part for channel, part in parts.items() if len(part)}))
+            container.add_chunk(
+                _chunk({channel: part for channel, part in parts.items() if len(part)})
+            )
         if states:
             container.add_chunk(_states(channels[STATUS], states))
         container.add_metadata("atlas.run", metadata)

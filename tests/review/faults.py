@@ -41,7 +41,12 @@ def turn(topic: str, quaternion: str, angle: float, at: slice) -> Change:
     def change(columns: Columns) -> None:
         w, x, y, z = (columns[f"{topic} {quaternion}_{c}"] for c in "wxyz")
         c, s = np.cos(0.5 * angle), np.sin(0.5 * angle)
-        w[at], x[at], y[at], z[at] = c * w[at] - s * x[at], c * x[at] + s * w[at], c * y[at] - s * z[at], c * z[at] + s * y[at]
+        w[at], x[at], y[at], z[at] = (
+            c * w[at] - s * x[at],
+            c * x[at] + s * w[at],
+            c * y[at] - s * z[at],
+            c * z[at] + s * y[at],
+        )
 
     return change
 
@@ -85,12 +90,29 @@ DEGREE = np.pi / 180.0
 FAULTS: dict[str, tuple[Change, str, str, int | None]] = {
     "NaN in the motion": (put("/motion wy_rad_s", np.nan), "not a number", "/motion wy_rad_s", AT),
     "infinite force": (put("/vehicle fz_m_s2", np.inf), "not a number", "/vehicle fz_m_s2", AT),
-    "NaN as a flag": (put("/motion stage_limited", np.nan), "not a number", "/motion stage_limited", AT),
+    "NaN as a flag": (
+        put("/motion stage_limited", np.nan),
+        "not a number",
+        "/motion stage_limited",
+        AT,
+    ),
     "flag of a half": (put("/motion wheels_limited", 0.5), "no flag", "/motion wheels_limited", AT),
-    "wheel speed off by 1e-6": (add("/wheels w2_rad_s", 1e-6), "not J^-1 of the motion", "/wheels w2_rad_s", AT),
-    "wheel acceleration off by 1e-6": (add("/wheels a3_rad_s2", 1e-6), "not J^-1 of the motion", "/wheels a3_rad_s2", AT),
+    "wheel speed off by 1e-6": (
+        add("/wheels w2_rad_s", 1e-6),
+        "not J^-1 of the motion",
+        "/wheels w2_rad_s",
+        AT,
+    ),
+    "wheel acceleration off by 1e-6": (
+        add("/wheels a3_rad_s2", 1e-6),
+        "not J^-1 of the motion",
+        "/wheels a3_rad_s2",
+        AT,
+    ),
     "two wheels exchanged": (
-        lambda c: c.update({"/wheels w1_rad_s": c["/wheels w2_rad_s"], "/wheels w2_rad_s": c["/wheels w1_rad_s"]}),
+        lambda c: c.update(
+            {"/wheels w1_rad_s": c["/wheels w2_rad_s"], "/wheels w2_rad_s": c["/wheels w1_rad_s"]}
+        ),
         "not J^-1 of the motion",
         "/wheels w1_rad_s",
         None,
@@ -109,14 +131,22 @@ FAULTS: dict[str, tuple[Change, str, str, int | None]] = {
     ),
     "body rates for base rates": (
         lambda c: c.update(
-            {f"/motion w{a}_rad_s": s * c[f"/felt w{a}_rad_s"] for a, s in zip("xyz", (1, -1, -1), strict=True)}
+            {
+                f"/motion w{a}_rad_s": s * c[f"/felt w{a}_rad_s"]
+                for a, s in zip("xyz", (1, -1, -1), strict=True)
+            }
         ),
         "orientation is not the integral of Omega",
         "/motion q_ws",
         None,
     ),
     "norm off by 1e-6": (scale("/motion", "q_ws", 1.0 + 1e-6), "norm", "/motion q_ws", AT),
-    "norm of the vehicle off by 1e-6": (scale("/vehicle", "q_nb", 1.0 - 1e-6), "norm", "/vehicle q_nb", AT),
+    "norm of the vehicle off by 1e-6": (
+        scale("/vehicle", "q_nb", 1.0 - 1e-6),
+        "norm",
+        "/vehicle q_nb",
+        AT,
+    ),
     "sign flips": (flip("/motion", "q_ws"), "sign flips", "/motion q_ws", AT),
     "sign of the vehicle flips": (flip("/vehicle", "q_nb"), "sign flips", "/vehicle q_nb", AT),
     "vehicle's attitude jumps unsaid": (
@@ -125,8 +155,18 @@ FAULTS: dict[str, tuple[Change, str, str, int | None]] = {
         "/vehicle q_nb",
         AT,
     ),
-    "felt force off by 1e-6": (add("/felt fy_m_s2", 1e-6), "not what the motion makes the rider feel", "/felt fy_m_s2", AT),
-    "felt rate off by 1e-6": (add("/felt wz_rad_s", 1e-6), "not what the motion makes the rider feel", "/felt wz_rad_s", AT),
+    "felt force off by 1e-6": (
+        add("/felt fy_m_s2", 1e-6),
+        "not what the motion makes the rider feel",
+        "/felt fy_m_s2",
+        AT,
+    ),
+    "felt rate off by 1e-6": (
+        add("/felt wz_rad_s", 1e-6),
+        "not what the motion makes the rider feel",
+        "/felt wz_rad_s",
+        AT,
+    ),
     "direction off by 1e-5": (
         add("/felt direction_error_rad", 1e-5),
         "not what the motion makes the rider feel",

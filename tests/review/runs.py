@@ -15,14 +15,18 @@ G = 9.80665
 
 
 def coning(count: int = 601, dt: float = 0.01, platform: str = "atlas-2.9m") -> RecordedRun:
-    """A cabin that cones: q = Rz(n t) Rx(s t), whose base rate is s (cos n t, sin n t, 0) + n z; a stage on a slow sine.
+    """A cabin that cones: q = Rz(n t) Rx(s t), whose base rate is s (cos n t, sin n t, 0) + n z.
+
+    A stage on a slow sine.
 
     The vehicle does just the same, felt at a head in the centre.
     """
     n, s, t = 0.8, 0.6, dt * np.arange(count)
     zero, one = np.zeros(count), np.ones(count)
     a, b = 0.5 * n * t, 0.5 * s * t
-    q = np.column_stack([np.cos(a) * np.cos(b), np.cos(a) * np.sin(b), np.sin(a) * np.sin(b), np.sin(a) * np.cos(b)])
+    q = np.column_stack(
+        [np.cos(a) * np.cos(b), np.cos(a) * np.sin(b), np.sin(a) * np.sin(b), np.sin(a) * np.cos(b)]
+    )
     w = np.column_stack([s * np.cos(n * t), s * np.sin(n * t), n * one])
     alpha = np.column_stack([-s * n * np.sin(n * t), s * n * np.cos(n * t), zero])
     p, v, acceleration = (
@@ -35,7 +39,11 @@ def coning(count: int = 601, dt: float = 0.01, platform: str = "atlas-2.9m") -> 
     )
     felt_f, felt_w = _felt(t, n, s, acceleration)
     flu = np.array([1.0, 1.0, -1.0, -1.0])
-    run = RecordedRun(_log(), load_platform(platform), _flight(t, q * flu, felt_w, felt_f, q, w, alpha, p, v, acceleration))
+    run = RecordedRun(
+        _log(),
+        load_platform(platform),
+        _flight(t, q * flu, felt_w, felt_f, q, w, alpha, p, v, acceleration),
+    )
     inverse = run.wheels_from_sphere().T
     flight = replace(run.flight, wheel_speed=w @ inverse, wheel_acceleration=alpha @ inverse)
     return with_flight(run, flight)
@@ -45,7 +53,14 @@ def with_flight(run: RecordedRun, flight: RunColumns) -> RecordedRun:
     """The run with another flight in it, and in its log."""
     columns = {
         "/vehicle": (flight.time, flight.vehicle_q_NB, flight.vehicle_w_B, flight.vehicle_f_B),
-        "/cue": (flight.time, flight.cue_q_WS, flight.cue_w_W, flight.cue_p_W, flight.cue_v_W, flight.cue_a_W),
+        "/cue": (
+            flight.time,
+            flight.cue_q_WS,
+            flight.cue_w_W,
+            flight.cue_p_W,
+            flight.cue_v_W,
+            flight.cue_a_W,
+        ),
         "/motion": (
             *(flight.time, flight.motion_q_WS, flight.motion_w_W, flight.motion_alpha_W),
             *(flight.motion_p_W, flight.motion_v_W, flight.motion_a_W, flight.limited),
@@ -53,7 +68,10 @@ def with_flight(run: RecordedRun, flight: RunColumns) -> RecordedRun:
         "/wheels": (flight.time, flight.wheel_speed, flight.wheel_acceleration),
         "/felt": (flight.time, flight.felt_f, flight.felt_w, np.zeros(len(flight.time))),
     }
-    tables = {topic.name: TopicColumns(topic.fields, np.column_stack(columns[topic.name])) for topic in TOPICS}
+    tables = {
+        topic.name: TopicColumns(topic.fields, np.column_stack(columns[topic.name]))
+        for topic in TOPICS
+    }
     return replace(run, log=replace(run.log, tables=tables), flight=flight)
 
 
@@ -84,7 +102,28 @@ def _flight(
     a: np.ndarray,
 ) -> RunColumns:
     none = np.zeros((len(t), 3))
-    return RunColumns(t, q_NB, w_B, f_B, q, w, p, v, a, q, w, alpha, p, v, a, np.zeros((len(t), 2)), none, none, f_B, w_B)
+    return RunColumns(
+        t,
+        q_NB,
+        w_B,
+        f_B,
+        q,
+        w,
+        p,
+        v,
+        a,
+        q,
+        w,
+        alpha,
+        p,
+        v,
+        a,
+        np.zeros((len(t), 2)),
+        none,
+        none,
+        f_B,
+        w_B,
+    )
 
 
 def _log() -> Log:

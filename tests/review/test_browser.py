@@ -20,21 +20,29 @@ def browser() -> Iterator[Any]:
         yield chromium
 
 
-def test_the_plots_are_drawn_and_their_zoom_is_linked(browser: Any, flight: Path, tmp_path: Path) -> None:
+def test_the_plots_are_drawn_and_their_zoom_is_linked(
+    browser: Any, flight: Path, tmp_path: Path
+) -> None:
     write_page(review_log(flight), tmp_path / "page.html")
     opened = Opened(browser, (tmp_path / "page.html").as_uri())
     page = opened.page
     page.wait_for_function("document.querySelectorAll('.js-plotly-plot').length == 4")
     page.wait_for_function("document.querySelectorAll('.js-plotly-plot .main-svg').length >= 4")
     assert page.inner_text(".verdict") == "clean"
-    lines = page.evaluate("[...document.querySelectorAll('.js-plotly-plot')[0].querySelectorAll('path.js-line')].length")
+    lines = page.evaluate(
+        "[...document.querySelectorAll('.js-plotly-plot')[0].querySelectorAll('path.js-line')].length"
+    )
     assert lines >= 6 * 2 + 1 + 3 * 3 + 2
     length = page.evaluate("document.querySelector('path.js-line').getTotalLength()")
     assert length > 300  # pixels: the first line goes across the page
-    assert page.evaluate("document.querySelectorAll('.gl-container canvas').length") >= 2  # the two scenes in space
-    page.evaluate("Plotly.relayout(document.querySelectorAll('.js-plotly-plot')[0], {'xaxis.range': [2, 3]})")
+    # the two scenes in space
+    assert page.evaluate("document.querySelectorAll('.gl-container canvas').length") >= 2
+    page.evaluate(
+        "Plotly.relayout(document.querySelectorAll('.js-plotly-plot')[0], {'xaxis.range': [2, 3]})"
+    )
     ranges = page.evaluate(
-        "(l => [l.xaxis.range, l.xaxis8.range])(document.querySelectorAll('.js-plotly-plot')[0]._fullLayout)"
+        "(l => [l.xaxis.range,"
+        " l.xaxis8.range])(document.querySelectorAll('.js-plotly-plot')[0]._fullLayout)"
     )
     assert ranges == [[2, 3], [2, 3]]
     opened.check_alone()

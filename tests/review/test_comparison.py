@@ -23,7 +23,9 @@ def test_two_methods(flight: Path, other: Path) -> None:
     both = compare_logs([flight, other])
     assert (both.names, both.clean) == (("blend", "attitude"), True)
     table = both.to_json()
-    assert table["metrics"]["rate_rms_rad_s"] == [review_log(log).metrics["rate_rms_rad_s"] for log in (flight, other)]  # type: ignore[index]
+    assert table["metrics"]["rate_rms_rad_s"] == [
+        review_log(log).metrics["rate_rms_rad_s"] for log in (flight, other)
+    ]  # type: ignore[index]
     assert [log["log"] for log in table["logs"]] == [str(flight), str(other)]  # type: ignore[attr-defined]
     json.dumps(table)
 
@@ -50,14 +52,18 @@ def test_names_tell_the_logs_apart(flight: Path, other: Path, tmp_path: Path) ->
     ],
 )
 def test_another_flight_is_refused(flight: Path, tmp_path: Path, name: str, message: str) -> None:
-    changed = corrupted(flight, tmp_path / "other.mcap", lambda c: c[name].__setitem__(300, c[name][300] + 1e-12))
+    changed = corrupted(
+        flight, tmp_path / "other.mcap", lambda c: c[name].__setitem__(300, c[name][300] + 1e-12)
+    )
     with pytest.raises(InputError, match=message):
         compare_logs([flight, changed])
     assert len(compare_logs([flight, changed], different_flights=True).reviews) == 2
 
 
 def test_a_shorter_flight_is_refused(flight: Path, tmp_path: Path) -> None:
-    short = corrupted(flight, tmp_path / "short.mcap", lambda c: c.update({n: v[:400] for n, v in c.items()}))
+    short = corrupted(
+        flight, tmp_path / "short.mcap", lambda c: c.update({n: v[:400] for n, v in c.items()})
+    )
     with pytest.raises(InputError, match="400 ticks instead of 721"):
         compare_logs([flight, short])
 
@@ -68,5 +74,7 @@ def test_one_log_is_none_to_compare(flight: Path) -> None:
 
 
 def test_a_fault_in_one_is_a_fault_of_all(flight: Path, tmp_path: Path) -> None:
-    bad = corrupted(flight, tmp_path / "bad.mcap", lambda c: c["/wheels w1_rad_s"].__setitem__(300, 9.0))
+    bad = corrupted(
+        flight, tmp_path / "bad.mcap", lambda c: c["/wheels w1_rad_s"].__setitem__(300, 9.0)
+    )
     assert not compare_logs([flight, bad]).clean

@@ -16,9 +16,15 @@ from .corrupting import corrupted
 
 
 @pytest.mark.parametrize("scenario", ["", "c172_elevator_doublet"])
-def test_without_a_change_it_repeats_the_log_to_the_last_bit(flight: Path, tmp_path: Path, scenario: str) -> None:
+def test_without_a_change_it_repeats_the_log_to_the_last_bit(
+    flight: Path, tmp_path: Path, scenario: str
+) -> None:
     """Also where JSBSim's step is no round number and the attitude jumps."""
-    old = fly(tmp_path, "duration_s=2.0", text=(SCENARIOS / f"{scenario}.toml").read_text()) if scenario else flight
+    old = (
+        fly(tmp_path, "duration_s=2.0", text=(SCENARIOS / f"{scenario}.toml").read_text())
+        if scenario
+        else flight
+    )
     cue_again(old, (), tmp_path / "new.mcap")
     one, other = read_log(old), read_log(tmp_path / "new.mcap")
     assert one.tables.keys() == other.tables.keys()
@@ -46,7 +52,10 @@ def test_another_method_and_platform(flight: Path, tmp_path: Path) -> None:
 @pytest.mark.parametrize("old", ["blend", "classical"])
 @pytest.mark.parametrize("new", METHODS)
 def test_another_method_comes_with_its_own_defaults(tmp_path: Path, old: str, new: str) -> None:
-    """A log names every value; the old method's must not pass for wishes: its slow turn, its gains, its stage."""
+    """A log names every value; the old method's must not pass for wishes.
+
+    Its slow turn, its gains, its stage.
+    """
     flown = fly(tmp_path, "duration_s=0.5", f"cueing.method={old}")
     cue_again(flown, [f"cueing.method={new}"], tmp_path / "new.mcap")
     run = read_log(fly(tmp_path, "duration_s=0.5", f"cueing.method={new}", name="run.mcap"))
@@ -56,10 +65,16 @@ def test_another_method_comes_with_its_own_defaults(tmp_path: Path, old: str, ne
 
 
 def test_what_was_set_for_the_old_method_stays_for_the_new_one(tmp_path: Path) -> None:
-    flown = fly(tmp_path, "duration_s=0.5", "cueing.align_rate_deg_s=2.0", "cueing.stage.bandwidth_hz=4.0")
+    flown = fly(
+        tmp_path, "duration_s=0.5", "cueing.align_rate_deg_s=2.0", "cueing.stage.bandwidth_hz=4.0"
+    )
     cueing = cue_again(flown, ["cueing.method=force"], tmp_path / "new.mcap").file.cueing
     assert isinstance(cueing, ForceTable)
-    assert (cueing.align_rate_deg_s, cueing.align_time_s, cueing.stage.bandwidth_hz) == (2.0, 0.5, 4.0)
+    assert (cueing.align_rate_deg_s, cueing.align_time_s, cueing.stage.bandwidth_hz) == (
+        2.0,
+        0.5,
+        4.0,
+    )
 
 
 def test_a_platform_file_is_found_where_the_command_is_called(
@@ -68,11 +83,16 @@ def test_a_platform_file_is_found_where_the_command_is_called(
     monkeypatch.chdir(tmp_path)
     text = read_log(flight).attachments["platform.toml"].decode()
     (tmp_path / "mine.toml").write_text(text.replace("atlas-2.9m", "mine"))
-    assert cue_again(flight, ["platform.file=mine.toml"], tmp_path / "new.mcap").platform.name == "mine"
+    assert (
+        cue_again(flight, ["platform.file=mine.toml"], tmp_path / "new.mcap").platform.name
+        == "mine"
+    )
 
 
 def test_how_the_flight_ended_is_kept(flight: Path, tmp_path: Path) -> None:
-    failed = corrupted(flight, tmp_path / "failed.mcap", metadata={"result": "vehicle_failed", "reason": "at 6 s"})
+    failed = corrupted(
+        flight, tmp_path / "failed.mcap", metadata={"result": "vehicle_failed", "reason": "at 6 s"}
+    )
     cue_again(failed, (), tmp_path / "new.mcap")
     metadata = read_log(tmp_path / "new.mcap").metadata
     assert (metadata["result"], metadata["reason"]) == ("vehicle_failed", "at 6 s")
@@ -89,7 +109,9 @@ def test_how_the_flight_ended_is_kept(flight: Path, tmp_path: Path) -> None:
         (["nonsense"], "KEY=VALUE"),
     ],
 )
-def test_settings_that_do_not_fit(flight: Path, tmp_path: Path, settings: list[str], message: str) -> None:
+def test_settings_that_do_not_fit(
+    flight: Path, tmp_path: Path, settings: list[str], message: str
+) -> None:
     with pytest.raises(InputError, match=message) as caught:
         cue_again(flight, settings, tmp_path / "new.mcap")
     assert "/tmp" not in str(caught.value) or "missing.toml" in str(caught.value)  # noqa: S108
@@ -97,14 +119,22 @@ def test_settings_that_do_not_fit(flight: Path, tmp_path: Path, settings: list[s
 
 
 def test_a_log_that_cannot_be_cued(flight: Path, tmp_path: Path) -> None:
-    one = corrupted(flight, tmp_path / "one.mcap", lambda c: c.update({n: v[:1] for n, v in c.items()}))
+    one = corrupted(
+        flight, tmp_path / "one.mcap", lambda c: c.update({n: v[:1] for n, v in c.items()})
+    )
     with pytest.raises(InputError, match="at least two states"):
         cue_again(one, (), tmp_path / "new.mcap")
-    without = corrupted(flight, tmp_path / "without.mcap", attachments={"scenario.toml": b"broken ="})
+    without = corrupted(
+        flight, tmp_path / "without.mcap", attachments={"scenario.toml": b"broken ="}
+    )
     with pytest.raises(InputError, match=r"the log's scenario\.toml: TOML: not valid"):
         cue_again(without, (), tmp_path / "new.mcap")
     with pytest.raises(LogError):
-        cue_again(tmp_path / "s.toml" if (tmp_path / "s.toml").exists() else _text(tmp_path), (), tmp_path / "new.mcap")
+        cue_again(
+            tmp_path / "s.toml" if (tmp_path / "s.toml").exists() else _text(tmp_path),
+            (),
+            tmp_path / "new.mcap",
+        )
 
 
 def test_a_full_disk_leaves_nothing(flight: Path, tmp_path: Path) -> None:

@@ -31,6 +31,16 @@ def test_names_and_units(name: str, value: float | None, title: str, text: str) 
 
 
 def test_headlines_take_what_is_there() -> None:
-    metrics = {"force_rms_m_s2": 1.0, "force_max_m_s2": 2.0, "turns_yaw": 3.0, "stage_limited_share": 0.5, "odd_rms_m": 1.0}
-    assert headlines(metrics) == [("force rms m/s2", "1.000"), ("turns yaw", "3.0000"), ("stage limited %", "50.00")]
+    metrics = {
+        "force_rms_m_s2": 1.0,
+        "force_max_m_s2": 2.0,
+        "turns_yaw": 3.0,
+        "stage_limited_share": 0.5,
+        "odd_rms_m": 1.0,
+    }
+    assert headlines(metrics) == [
+        ("force rms m/s2", "1.000"),
+        ("turns yaw", "3.0000"),
+        ("stage limited %", "50.00"),
+    ]
     assert headlines({}) == []

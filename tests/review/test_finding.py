@@ -12,15 +12,30 @@ def test_the_worst_is_told_with_time_and_place() -> None:
     values = np.array([[0.0, 0.0], [1.5, 0.0], [-3.0, 0.0], [2.0, 0.0], [0.0, 1.0]])
     (found,) = exceeding("limit", ["a", "b"], TIME, values, [1.0, 1.0], "m")
     assert (found.check, found.place, found.time) == ("limit", "a", pytest.approx(0.2))
-    assert str(found) == (
-        "0.200000 s a: limit: |value| = 3 m, allowed: |value| <= 1 m (the worst of 3 ticks, the first at 0.100000 s)"
+    assert (
+        str(found)
+        == "0.200000 s a: limit: |value| = 3 m, allowed: |value| <= 1 m (the worst of 3 ticks, the"
+        " first at 0.100000 s)"
     )
-    assert found.to_json() == {"check": "limit", "place": "a", "time_s": found.time, "text": found.text}
+    assert found.to_json() == {
+        "check": "limit",
+        "place": "a",
+        "time_s": found.time,
+        "text": found.text,
+    }
 
 
 def test_a_single_column_and_bounds_of_each_tick() -> None:
     values = np.array([1.0, 1.0, 1.0, 1.0, 5.0])
-    (found,) = exceeding("gap", ["t"], TIME, values, np.array([[2.0], [0.9], [2.0], [0.5], [4.9]]), "s", quantity="step")
+    (found,) = exceeding(
+        "gap",
+        ["t"],
+        TIME,
+        values,
+        np.array([[2.0], [0.9], [2.0], [0.5], [4.9]]),
+        "s",
+        quantity="step",
+    )
     assert found.time == pytest.approx(0.3)  # twice what is allowed there, though not the largest
     assert "step = 1 s, allowed: step <= 0.5 s (the worst of 3 ticks" in found.text
 

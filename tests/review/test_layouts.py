@@ -18,10 +18,16 @@ def fields(flight: Path) -> set[tuple[str, str]]:
     with flight.open("rb") as file:
         first = {
             channel.topic: message
-            for _, channel, _, message in make_reader(file, decoder_factories=[DecoderFactory()]).iter_decoded_messages()
+            for _, channel, _, message in make_reader(
+                file, decoder_factories=[DecoderFactory()]
+            ).iter_decoded_messages()
         }
     assert {"/vehicle", "/cue", "/motion", "/wheels", "/felt", "/status", "/tf"} == first.keys()
-    return {(topic, field.name) for topic, message in first.items() for field in message.DESCRIPTOR.fields}
+    return {
+        (topic, field.name)
+        for topic, message in first.items()
+        for field in message.DESCRIPTOR.fields
+    }
 
 
 def test_foxglove(fields: set[tuple[str, str]]) -> None:
@@ -36,9 +42,12 @@ def test_foxglove(fields: set[tuple[str, str]]) -> None:
 
 
 def test_plotjuggler(fields: set[tuple[str, str]]) -> None:
-    root = ElementTree.parse(TOOLS / "plotjuggler_layout.xml").getroot()  # noqa: S314 - our own file
+    # Our own file
+    root = ElementTree.parse(TOOLS / "plotjuggler_layout.xml").getroot()  # noqa: S314
     curves = [curve.attrib["name"] for curve in root.iter("curve")]
     assert len(curves) > 15
-    assert {(topic, field) for topic, _, field in (curve.rpartition("/") for curve in curves)} <= fields
+    assert {
+        (topic, field) for topic, _, field in (curve.rpartition("/") for curve in curves)
+    } <= fields
     for splitter in root.iter("DockSplitter"):
         assert int(splitter.attrib["count"]) == len(splitter.findall("DockArea"))

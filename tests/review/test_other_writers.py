@@ -1,4 +1,7 @@
-"""Review, recue and recover of a log that another program wrote again: the same figures, and the same faults."""
+"""Review, recue and recover of a log that another program wrote again.
+
+The same figures, and the same faults.
+"""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -16,8 +19,10 @@ from .conftest import fly
 from .corrupting import corrupted
 from .faults import FAULTS
 
-REVIEWED = ("mcap's own", "lz4", "no chunks", "zeros left out", "two channels")  # the others read the same, as recording/ tests
-ODD = ("NaN", "infinite", "lost on one topic", "runs back", "late")  # faults that a reader might mend
+# the others read the same, as recording/ tests
+REVIEWED = ("mcap's own", "lz4", "no chunks", "zeros left out", "two channels")
+# faults that a reader might mend
+ODD = ("NaN", "infinite", "lost on one topic", "runs back", "late")
 CHUNKS = ("lz4", "uncompressed", "small chunks")
 
 
@@ -31,7 +36,9 @@ def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def faulty(log: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     """A log with each of the faults."""
     folder = tmp_path_factory.mktemp("faults")
-    return {name: corrupted(log, folder / f"{k}.mcap", FAULTS[name][0]) for k, name in enumerate(FAULTS)}
+    return {
+        name: corrupted(log, folder / f"{k}.mcap", FAULTS[name][0]) for k, name in enumerate(FAULTS)
+    }
 
 
 @pytest.mark.parametrize("name", LAYOUTS)
@@ -49,27 +56,37 @@ def test_recover_and_review(log: Path, tmp_path: Path, name: str) -> None:
 
 @pytest.mark.parametrize("name", REVIEWED)
 def test_recue(log: Path, tmp_path: Path, name: str) -> None:
-    cue_again(str(rewritten(log, tmp_path / "x.mcap", LAYOUTS[name])), [], str(tmp_path / "again.mcap"))
+    cue_again(
+        str(rewritten(log, tmp_path / "x.mcap", LAYOUTS[name])), [], str(tmp_path / "again.mcap")
+    )
     one, other = read_log(log), read_log(tmp_path / "again.mcap")
     for topic, table in one.tables.items():
         assert table.values.tobytes() == other.tables[topic].values.tobytes(), topic
 
 
 @pytest.mark.parametrize("layout", REVIEWED)
-def test_odd_numbers_and_times_are_read_as_they_are(faulty: dict[str, Path], tmp_path: Path, layout: str) -> None:
+def test_odd_numbers_and_times_are_read_as_they_are(
+    faulty: dict[str, Path], tmp_path: Path, layout: str
+) -> None:
     """A review is of what was read: the same bits, the same findings."""
     for path in (path for name, path in faulty.items() if any(word in name for word in ODD)):
         own, other = read_log(path), read_log(rewritten(path, tmp_path / "x.mcap", LAYOUTS[layout]))
         for topic, table in own.tables.items():
             assert table.values.tobytes() == other.tables[topic].values.tobytes(), (path, topic)
-            assert table.log_times.tobytes() == other.tables[topic].log_times.tobytes(), (path, topic)
+            assert table.log_times.tobytes() == other.tables[topic].log_times.tobytes(), (
+                path,
+                topic,
+            )
 
 
 @pytest.mark.parametrize("number", range(len(FAULTS)))
 def test_every_fault_is_found(faulty: dict[str, Path], tmp_path: Path, number: int) -> None:
     """Each in one of the layouts by turns, in the words in which it is found in our own."""
     name, layout = list(FAULTS)[number], REVIEWED[number % len(REVIEWED)]
-    own, found = review_log(faulty[name]), review_log(rewritten(faulty[name], tmp_path / "x.mcap", LAYOUTS[layout]))
+    own, found = (
+        review_log(faulty[name]),
+        review_log(rewritten(faulty[name], tmp_path / "x.mcap", LAYOUTS[layout])),
+    )
     assert found.findings == own.findings
     assert not found.clean
 
@@ -89,7 +106,12 @@ def broken(log: Path, path: Path, layout: Layout, change: Callable[[bytearray], 
 @pytest.mark.parametrize("name", [*CHUNKS, "no chunks", "zeros left out", "two channels"])
 def test_a_cut_log(log: Path, tmp_path: Path, name: str) -> None:
     """What lies before the cut comes back, and is said to end there."""
-    path = broken(log, tmp_path / "x.mcap", small(name), lambda data: data.__delitem__(slice(len(data) * 2 // 3, None)))
+    path = broken(
+        log,
+        tmp_path / "x.mcap",
+        small(name),
+        lambda data: data.__delitem__(slice(len(data) * 2 // 3, None)),
+    )
     with pytest.raises(LogError):
         read_log(path)
     assert "whole; try: atlas-cueing recover" in advice(path)
@@ -98,13 +120,18 @@ def test_a_cut_log(log: Path, tmp_path: Path, name: str) -> None:
     assert result.lost[-1].startswith("after ")
     for topic, table in read_log(tmp_path / "fixed.mcap").tables.items():
         assert len(table.values) in (result.ticks - 1, result.ticks)
-        np.testing.assert_array_equal(table.values, read_log(log).tables[topic].values[: len(table.values)])
+        np.testing.assert_array_equal(
+            table.values, read_log(log).tables[topic].values[: len(table.values)]
+        )
 
 
 @pytest.mark.parametrize("name", CHUNKS)
 @pytest.mark.parametrize("into", [3, 9 + 24, 200], ids=["length", "crc", "data"])
 def test_a_damaged_chunk(log: Path, tmp_path: Path, name: str, into: int) -> None:
-    """It is left out, and the gap is told, wherever the chunk is hit; those behind it are found again."""
+    """It is left out, and the gap is told, wherever the chunk is hit.
+
+    Those behind it are found again.
+    """
     words = {"lz4": b"\x03\0\0\0lz4", "small chunks": b"\x04\0\0\0zstd"}
 
     def change(data: bytearray) -> None:
@@ -112,11 +139,15 @@ def test_a_damaged_chunk(log: Path, tmp_path: Path, name: str, into: int) -> Non
             start = data.index(words[name], len(data) // 2) - 37
         else:
             start = data.index(b"\x06", len(data) // 2)
-            while bytes(data[start + 5 : start + 9]) + bytes(data[start + 37 : start + 41]) != bytes(8):
+            while bytes(data[start + 5 : start + 9]) + bytes(
+                data[start + 37 : start + 41]
+            ) != bytes(8):
                 start = data.index(b"\x06", start + 1)
         data[start + into] ^= 0x55
 
-    result = recover_log(broken(log, tmp_path / "x.mcap", small(name), change), tmp_path / "fixed.mcap")
+    result = recover_log(
+        broken(log, tmp_path / "x.mcap", small(name), change), tmp_path / "fixed.mcap"
+    )
     assert 330 < result.ticks < 361
     assert any(" s of ticks" in line for line in result.lost)
     time = read_log(tmp_path / "fixed.mcap").column("/motion", "time_s")
@@ -128,11 +159,15 @@ def test_a_damaged_length_of_a_message_outside_of_chunks(log: Path, tmp_path: Pa
 
     def change(data: bytearray) -> None:
         place = data.index(b"\x05", len(data) // 2)
-        while bytes(data[place + 2 : place + 9]) != bytes(7) or data[place + 11 : place + 15] != bytes(4):
+        while bytes(data[place + 2 : place + 9]) != bytes(7) or data[
+            place + 11 : place + 15
+        ] != bytes(4):
             place = data.index(b"\x05", place + 1)
         data[place + 4] ^= 0x55
 
-    result = recover_log(broken(log, tmp_path / "x.mcap", LAYOUTS["no chunks"], change), tmp_path / "fixed.mcap")
+    result = recover_log(
+        broken(log, tmp_path / "x.mcap", LAYOUTS["no chunks"], change), tmp_path / "fixed.mcap"
+    )
     assert result.ticks == 361
     assert len(result.lost) == 2
     assert " s of ticks" in result.lost[0]
@@ -145,7 +180,12 @@ def test_a_damaged_number_outside_of_chunks_is_doubted(log: Path, tmp_path: Path
 
     layout = Layout({"use_chunking": False, **ALL_CRCS})
     result = recover_log(broken(log, tmp_path / "x.mcap", layout, change), tmp_path / "fixed.mcap")
-    assert result.lost == ("perhaps a number here and there: messages outside of chunks, and a wrong checksum of the data",)
+    assert result.lost == (
+        (
+            "perhaps a number here and there: messages outside of chunks, and a wrong checksum of"
+            " the data"
+        ),
+    )
     assert read_log(tmp_path / "fixed.mcap").metadata["result"] == "recovered"
 
 
@@ -158,10 +198,14 @@ def test_an_unknown_compression_is_named(log: Path, tmp_path: Path) -> None:
         data[place : place + 8] = b"\x04\0\0\0br-7"
 
     path = broken(log, tmp_path / "x.mcap", small("small chunks"), all_of_them)
-    with pytest.raises(LogError, match=r"nothing to recover: .* compression 'br-7', allowed: 'zstd', 'lz4' or none"):
+    with pytest.raises(
+        LogError, match=r"nothing to recover: .* compression 'br-7', allowed: 'zstd', 'lz4' or none"
+    ):
         recover_log(path, tmp_path / "fixed.mcap")
     assert not (tmp_path / "fixed.mcap").exists()
-    result = recover_log(broken(log, tmp_path / "x.mcap", small("small chunks"), one), tmp_path / "fixed.mcap")
+    result = recover_log(
+        broken(log, tmp_path / "x.mcap", small("small chunks"), one), tmp_path / "fixed.mcap"
+    )
     assert result.ticks < 361
     assert "a chunk has compression 'br-7', allowed: 'zstd', 'lz4' or none" in result.lost
 

@@ -31,7 +31,9 @@ def test_there_and_back(phi: np.ndarray) -> None:
     q = from_vector(phi)
     assert np.linalg.norm(q, axis=1) == pytest.approx(1.0)
     assert scipy(q).as_rotvec() == pytest.approx(Rotation.from_rotvec(phi).as_rotvec(), abs=1e-9)
-    assert from_vector(to_vector(q)) * np.sign(np.sum(from_vector(to_vector(q)) * q, axis=1, keepdims=True)) == pytest.approx(q)
+    assert from_vector(to_vector(q)) * np.sign(
+        np.sum(from_vector(to_vector(q)) * q, axis=1, keepdims=True)
+    ) == pytest.approx(q)
 
 
 @pytest.mark.parametrize("angle", [0.0, 1e-300, 1e-12, 1e-9, 1e-8, 1e-4, np.pi - 1e-9])

@@ -22,7 +22,10 @@ def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def chunk_starts(log: Path) -> list[int]:
-    """Where each chunk record starts, by the words it holds; as the format has it, not as the code does."""
+    """Where each chunk record starts, by the words it holds.
+
+    As the format has it, not as the code does.
+    """
     data, starts, place = log.read_bytes(), [], 0
     while (place := data.find(b"\x04\0\0\0zstd", place + 1)) >= 0:
         starts.append(place - 37)
@@ -64,15 +67,25 @@ def test_a_cut_log(log: Path, tmp_path: Path, into: int) -> None:
     result = recover_log(broken, tmp_path / "fixed.mcap")
     assert result.ticks == 4 * CHUNK
     assert result.seconds == pytest.approx((4 * CHUNK - 1) / 120.0)
-    assert result.lost == (f"after {(4 * CHUNK - 1) / 120.0:.6f} s: whatever there was; the log has no end",)
+    assert result.lost == (
+        f"after {(4 * CHUNK - 1) / 120.0:.6f} s: whatever there was; the log has no end",
+    )
     check_same(tmp_path / "fixed.mcap", log, np.arange(4 * CHUNK))
     metadata = read_log(tmp_path / "fixed.mcap").metadata
-    assert (metadata["scenario"], metadata["method"], metadata["platform"]) == ("roll", "blend", "atlas-2.9m")
+    assert (metadata["scenario"], metadata["method"], metadata["platform"]) == (
+        "roll",
+        "blend",
+        "atlas-2.9m",
+    )
     assert (metadata["result"], metadata["reason"]) == ("recovered", result.lost[0])
     assert [finding.check for finding in review_log(tmp_path / "fixed.mcap").findings] == ["result"]
 
 
-@pytest.mark.parametrize("place", [60, 9 + 3, 3, 0, 37, 9 + 26], ids=["data", "time", "length", "opcode", "compression", "crc"])
+@pytest.mark.parametrize(
+    "place",
+    [60, 9 + 3, 3, 0, 37, 9 + 26],
+    ids=["data", "time", "length", "opcode", "compression", "crc"],
+)
 def test_a_damaged_chunk_in_the_middle(log: Path, tmp_path: Path, place: int) -> None:
     """Wherever the third chunk is hit, the others come back, unless nothing that matters was hit."""
     broken = damaged(log, tmp_path, flip(chunk_starts(log)[2] + place))
@@ -84,13 +97,20 @@ def test_a_damaged_chunk_in_the_middle(log: Path, tmp_path: Path, place: int) ->
         assert result.lost == ()
     else:
         ticks = np.delete(ticks, slice(2 * CHUNK, 3 * CHUNK))
-        assert result.lost == (f"{(2 * CHUNK - 1) / 120:.6f} to {3 * CHUNK / 120:.6f} s: {CHUNK / 120:.6f} s of ticks",)
-        assert read_log(tmp_path / "fixed.mcap").metadata["reason"] == f"{result.lost[0]}; its result was 'ok'"
+        assert result.lost == (
+            f"{(2 * CHUNK - 1) / 120:.6f} to {3 * CHUNK / 120:.6f} s: {CHUNK / 120:.6f} s of ticks",
+        )
+        assert (
+            read_log(tmp_path / "fixed.mcap").metadata["reason"]
+            == f"{result.lost[0]}; its result was 'ok'"
+        )
     check_same(tmp_path / "fixed.mcap", log, ticks)
 
 
 def test_the_first_chunk_is_lost(log: Path, tmp_path: Path) -> None:
-    result = recover_log(damaged(log, tmp_path, flip(chunk_starts(log)[0] + 60)), tmp_path / "fixed.mcap")
+    result = recover_log(
+        damaged(log, tmp_path, flip(chunk_starts(log)[0] + 60)), tmp_path / "fixed.mcap"
+    )
     assert result.lost == (f"before {CHUNK / 120:.6f} s: everything",)
 
 
@@ -98,7 +118,12 @@ def test_a_whole_log_is_copied(log: Path, tmp_path: Path) -> None:
     result = recover_log(log, tmp_path / "fixed.mcap")
     assert (result.lost, result.ticks) == ((), 721)
     assert (tmp_path / "fixed.mcap").read_bytes() == log.read_bytes()
-    assert result.to_json() == {"log": str(tmp_path / "fixed.mcap"), "ticks": 721, "recovered_s": result.seconds, "lost": []}
+    assert result.to_json() == {
+        "log": str(tmp_path / "fixed.mcap"),
+        "ticks": 721,
+        "recovered_s": result.seconds,
+        "lost": [],
+    }
 
 
 def test_a_damaged_end(log: Path, tmp_path: Path) -> None:
@@ -173,7 +198,9 @@ def test_nowhere_to_write(log: Path, tmp_path: Path) -> None:
         recover_log(log, tmp_path / "no" / "fixed.mcap")
 
 
-def test_the_part_of_a_killed_run_can_be_recovered_under_its_own_name(log: Path, tmp_path: Path) -> None:
+def test_the_part_of_a_killed_run_can_be_recovered_under_its_own_name(
+    log: Path, tmp_path: Path
+) -> None:
     """Whatever name recover writes under for the time being, it must not be that of the log it reads."""
     part = tmp_path / "flight.mcap.part"
     part.write_bytes(log.read_bytes()[: chunk_starts(log)[7]])

@@ -36,7 +36,11 @@ def own_part(page: str) -> str:
 def test_verdict_first(page: str) -> None:
     body = own_part(page)
     assert len(body) < len(page) - 1_000_000
-    assert body.index("<span class='verdict clean'>clean</span>") < body.index("atlas-2.9m") < body.index("Over time")
+    assert (
+        body.index("<span class='verdict clean'>clean</span>")
+        < body.index("atlas-2.9m")
+        < body.index("Over time")
+    )
     for version in ("jsbsim version", "ruckig version", "atlas cueing version"):
         assert version in body
 
@@ -48,14 +52,18 @@ def test_nothing_is_fetched(page: str) -> None:
 
 
 def test_findings_are_listed_and_marked(flight: Path, tmp_path: Path) -> None:
-    bad = corrupted(flight, tmp_path / "bad.mcap", lambda c: c["/wheels w2_rad_s"].__setitem__(300, 5.0))
+    bad = corrupted(
+        flight, tmp_path / "bad.mcap", lambda c: c["/wheels w2_rad_s"].__setitem__(300, 5.0)
+    )
     found = review_log(bad)
     write_page(found, tmp_path / "page.html")
     body = own_part((tmp_path / "page.html").read_text())
     assert f"<span class='verdict'>{found.verdict}</span>" in body
     assert body.count("<li class='finding'>") == len(found.findings)
     plot = over_time(found)
-    assert {shape.x0 for shape in plot.layout.shapes if shape.yref == "paper"} == {finding.time for finding in found.findings}
+    assert {shape.x0 for shape in plot.layout.shapes if shape.yref == "paper"} == {
+        finding.time for finding in found.findings
+    }
     (marks,) = [trace for trace in plot.data if trace.name == "finding"]
     assert len(marks.x) == len(found.findings) <= MOST_MARKS
 
@@ -79,7 +87,9 @@ def test_a_field_with_an_evil_name(tmp_path: Path) -> None:
 def test_the_rows_share_their_zoom_and_show_the_columns(flight: Path) -> None:
     found = review_log(flight)
     plot = over_time(found)
-    axes = [axis for name, axis in plot.to_plotly_json()["layout"].items() if name.startswith("xaxis")]
+    axes = [
+        axis for name, axis in plot.to_plotly_json()["layout"].items() if name.startswith("xaxis")
+    ]
     assert len(axes) == 11
     assert sum("matches" in axis for axis in axes) == 10
     vehicle, rider = plot.data[:2]
@@ -91,11 +101,21 @@ def test_the_rows_share_their_zoom_and_show_the_columns(flight: Path) -> None:
 def test_an_odd_log_has_a_page(flight: Path, tmp_path: Path) -> None:
     """No ticks, one tick, numbers that are none."""
     for name, ticks in (("none", slice(0)), ("one", slice(1)), ("five", slice(5))):
-        log = corrupted(flight, tmp_path / f"{name}.mcap", lambda c, t=ticks: c.update({n: v[t] for n, v in c.items()}))
+        log = corrupted(
+            flight,
+            tmp_path / f"{name}.mcap",
+            lambda c, t=ticks: c.update({n: v[t] for n, v in c.items()}),
+        )
         write_page(review_log(log), tmp_path / f"{name}.html")
-    log = corrupted(flight, tmp_path / "nan.mcap", lambda c: [c[n].__setitem__(9, np.nan) for n in c if "time" not in n])  # type: ignore[func-returns-value, arg-type]
+    log = corrupted(
+        flight,
+        tmp_path / "nan.mcap",
+        lambda c: [c[n].__setitem__(9, np.nan) for n in c if "time" not in n],
+    )  # type: ignore[func-returns-value, arg-type]
     write_page(review_log(log), tmp_path / "nan.html")
-    assert all((tmp_path / f"{name}.html").stat().st_size > 4e6 for name in ("none", "one", "five", "nan"))
+    assert all(
+        (tmp_path / f"{name}.html").stat().st_size > 4e6 for name in ("none", "one", "five", "nan")
+    )
 
 
 def test_a_comparison(flight: Path, tmp_path: Path) -> None:
@@ -108,8 +128,14 @@ def test_a_comparison(flight: Path, tmp_path: Path) -> None:
     assert re.search(row, body).start() < body.index("Over time")  # type: ignore[union-attr]
 
 
-def test_without_plotly_it_says_what_to_install(flight: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in [name for name in sys.modules if name.startswith(("plotly", "atlas_cueing.review.plots.time_series"))]:
+def test_without_plotly_it_says_what_to_install(
+    flight: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in [
+        name
+        for name in sys.modules
+        if name.startswith(("plotly", "atlas_cueing.review.plots.time_series"))
+    ]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.delattr("atlas_cueing.review.plots.time_series", raising=False)
     monkeypatch.setitem(sys.modules, "plotly", None)
@@ -121,9 +147,15 @@ def test_a_full_disk_leaves_the_old_page(flight: Path, tmp_path: Path) -> None:
     found = review_log(flight)
     (tmp_path / "page.html").write_text("old")
     for file in ("page.html", "new.html"):
-        with largest_file(100_000), pytest.raises(OutputError, match=rf"page .*{file}: File too large"):
+        with (
+            largest_file(100_000),
+            pytest.raises(OutputError, match=rf"page .*{file}: File too large"),
+        ):
             write_page(found, tmp_path / file)
-        with largest_file(100_000), pytest.raises(OutputError, match=rf"page .*{file}: File too large"):
+        with (
+            largest_file(100_000),
+            pytest.raises(OutputError, match=rf"page .*{file}: File too large"),
+        ):
             write_comparison(compare_logs([flight, flight]), tmp_path / file)
     assert [path.name for path in tmp_path.iterdir()] == ["page.html"]
     assert (tmp_path / "page.html").read_text() == "old"

@@ -23,7 +23,9 @@ def test_a_fault_is_found(flight: Path, tmp_path: Path, name: str) -> None:
     times = read_log(flight).column("/motion", "time_s")
     found = review_log(corrupted(flight, tmp_path / "bad.mcap", change))
     assert not found.clean
-    matching = [finding for finding in found.findings if (finding.check, finding.place) == (check, place)]
+    matching = [
+        finding for finding in found.findings if (finding.check, finding.place) == (check, place)
+    ]
     assert matching, [str(finding) for finding in found.findings]
     assert tick is None or matching[0].time == pytest.approx(times[tick], abs=1e-9)
     json.dumps(found.to_json()["findings"], allow_nan=False)
@@ -38,12 +40,19 @@ def test_a_clean_flight(flight: Path) -> None:
     assert table["metrics"] == found.metrics
 
 
-@pytest.mark.parametrize("name", ["wheel_speed", "wheel_acceleration", "stage_travel", "stage_speed", "stage_acceleration"])
+@pytest.mark.parametrize(
+    "name",
+    ["wheel_speed", "wheel_acceleration", "stage_travel", "stage_speed", "stage_acceleration"],
+)
 def test_a_logged_limit_broken_by_a_thousandth(flight: Path, tmp_path: Path, name: str) -> None:
     """The flight stays as it is and the limit is set a thousandth below what was used, so that nothing else is amiss."""
     used = np.abs(limit_shares(open_run(flight))[name])
     found = review_log(with_limit(flight, tmp_path / "bad.mcap", name, used.max() / 1.001))
-    logged = [finding for finding in found.findings if finding.check == "limit" and " by " not in finding.place]
+    logged = [
+        finding
+        for finding in found.findings
+        if finding.check == "limit" and " by " not in finding.place
+    ]
     assert len(logged) == 1
     worst = np.argwhere(used == used.max())[0][0]
     assert logged[0].time == read_log(flight).column("/motion", "time_s")[worst]
@@ -63,19 +72,30 @@ def test_a_logged_limit_broken_by_a_thousandth(flight: Path, tmp_path: Path, nam
         ("stage_jerk", "/motion v{k}_m_s by second differences"),
     ],
 )
-def test_a_limit_broken_by_a_thousandth_between_ticks(flight: Path, tmp_path: Path, name: str, place: str) -> None:
+def test_a_limit_broken_by_a_thousandth_between_ticks(
+    flight: Path, tmp_path: Path, name: str, place: str
+) -> None:
     """Slopes of what is logged, reckoned here once more with numpy's gradient of a single column."""
     log = read_log(flight)
     axes = "123" if place.startswith("/wheels") else "xyz"
     topic, field = place.split()[0], place.split()[1]
-    time, most, limit = log.column(topic, "time_s"), 0.0, limits(log.attachments["platform.toml"], name)
+    time, most, limit = (
+        log.column(topic, "time_s"),
+        0.0,
+        limits(log.attachments["platform.toml"], name),
+    )
     for k, axis in enumerate(axes):
         slope = np.diff(log.column(topic, field.format(k=axis))) / np.diff(time)
         if "second" in place:
             slope = np.diff(slope) / np.diff(time)[1:]
         most = max(most, float(np.abs(slope).max() / limit[k]))
     found = review_log(with_limit(flight, tmp_path / "bad.mcap", name, most / 1.001))
-    assert any(place.format(k=axis) in str(finding) for axis in axes for finding in found.findings if finding.check == "limit")
+    assert any(
+        place.format(k=axis) in str(finding)
+        for axis in axes
+        for finding in found.findings
+        if finding.check == "limit"
+    )
 
 
 def limits(platform: bytes, name: str) -> tuple[float, float, float]:
@@ -98,13 +118,25 @@ def with_limit(flight: Path, output: Path, name: str, share: float) -> Path:
 @pytest.mark.parametrize(
     ("metadata", "states", "texts"),
     [
-        ({"result": "vehicle_failed", "reason": "at 3 s"}, None, ["result: result = 'vehicle_failed', allowed: 'ok'; at 3 s"]),
-        ({}, [(0.0, "running", ""), (2.0, "FAULT_STOPPING", "late")], ["2.000000 s /status: fault: FAULT_STOPPING: late"]),
+        (
+            {"result": "vehicle_failed", "reason": "at 3 s"},
+            None,
+            ["result: result = 'vehicle_failed', allowed: 'ok'; at 3 s"],
+        ),
+        (
+            {},
+            [(0.0, "running", ""), (2.0, "FAULT_STOPPING", "late")],
+            ["2.000000 s /status: fault: FAULT_STOPPING: late"],
+        ),
         ({"result": ""}, [], ["result = ''"]),
     ],
 )
 def test_what_the_run_says_itself(
-    flight: Path, tmp_path: Path, metadata: dict[str, str], states: list[tuple[float, str, str]] | None, texts: list[str]
+    flight: Path,
+    tmp_path: Path,
+    metadata: dict[str, str],
+    states: list[tuple[float, str, str]] | None,
+    texts: list[str],
 ) -> None:
     found = review_log(corrupted(flight, tmp_path / "bad.mcap", metadata=metadata, states=states))
     assert len(found.findings) == len(texts)
@@ -113,7 +145,11 @@ def test_what_the_run_says_itself(
 
 def test_a_jump_that_a_state_tells_of_is_a_note(flight: Path, tmp_path: Path) -> None:
     when = float(read_log(flight).column("/motion", "time_s")[AT])
-    states = [(0.0, "running", ""), (when, "attitude_jump", "by 1 deg"), (when + STEP, "running", "")]
+    states = [
+        (0.0, "running", ""),
+        (when, "attitude_jump", "by 1 deg"),
+        (when + STEP, "running", ""),
+    ]
     change = turn("/vehicle", "q_nb", 1.0 * DEGREE, slice(AT, None))
     found = review_log(corrupted(flight, tmp_path / "told.mcap", change, states=states))
     assert found.clean
@@ -121,7 +157,14 @@ def test_a_jump_that_a_state_tells_of_is_a_note(flight: Path, tmp_path: Path) ->
 
 
 def test_a_log_without_ticks(flight: Path, tmp_path: Path) -> None:
-    found = review_log(corrupted(flight, tmp_path / "empty.mcap", drop(ticks=slice(None)), metadata={"result": "vehicle_failed"}))
+    found = review_log(
+        corrupted(
+            flight,
+            tmp_path / "empty.mcap",
+            drop(ticks=slice(None)),
+            metadata={"result": "vehicle_failed"},
+        )
+    )
     assert [finding.check for finding in found.findings] == ["result", "empty"]
     assert (found.duration, found.run.step) == (0.0, 0.0)
 
@@ -154,7 +197,9 @@ def test_a_rewritten_log_is_the_same(flight: Path, tmp_path: Path) -> None:
         ({"big": bytes(2 << 20)}, "allowed: at most"),
     ],
 )
-def test_bad_files_inside(flight: Path, tmp_path: Path, files: dict[str, bytes], message: str) -> None:
+def test_bad_files_inside(
+    flight: Path, tmp_path: Path, files: dict[str, bytes], message: str
+) -> None:
     bad = corrupted(flight, tmp_path / "bad.mcap", attachments=files)
     with pytest.raises(LogError, match=message) as caught:
         review_log(bad)

@@ -35,7 +35,10 @@ def test_at_rest_nothing_moves(tmp_path: Path) -> None:
 def test_the_platforms_numbers_arrive(tmp_path: Path) -> None:
     """A vehicle that starts to roll: wheels turn as the platform's own J^-1 says, slower than the limit that was set."""
     scenario = loaded(
-        tmp_path, "platform.wheel_limits.speed_rad_s=0.5", "platform.wheel.0.radius_m=0.3", "cueing.method=attitude"
+        tmp_path,
+        "platform.wheel_limits.speed_rad_s=0.5",
+        "platform.wheel.0.radius_m=0.3",
+        "cueing.method=attitude",
     )
     pipeline = build_pipeline(scenario, 0.01)
     fastest = 0.0
@@ -58,31 +61,47 @@ def test_two_pipelines_share_nothing(tmp_path: Path) -> None:
 
 
 def test_a_singular_platform_is_refused_with_its_file(tmp_path: Path) -> None:
-    scenario = loaded(tmp_path, *(f"platform.wheel.{i}.contact={contact}" for i, contact in enumerate(FLAT)))
+    scenario = loaded(
+        tmp_path, *(f"platform.wheel.{i}.contact={contact}" for i, contact in enumerate(FLAT))
+    )
     told = r"^--set: wheel: platform 'atlas-2.9m' .*determinant .*condition number (infinite|\d)"
     with pytest.raises(SlipConditionError, match=told):
         build_pipeline(scenario, 0.01)
 
 
 def test_limits_that_leave_no_room_are_refused_with_file_and_key(tmp_path: Path) -> None:
-    scenario = loaded(tmp_path, "platform.stage_limits.travel_m=1e-6", "platform.wheel_limits.speed_rad_s=[1,1e-6,1]")
+    scenario = loaded(
+        tmp_path,
+        "platform.stage_limits.travel_m=1e-6",
+        "platform.wheel_limits.speed_rad_s=[1,1e-6,1]",
+    )
     with pytest.raises(ScenarioError) as caught:
         build_pipeline(scenario, 0.01)
     assert str(caught.value).splitlines() == [
-        "--set: platform.wheel_limits.speed_rad_s = 1e-06: "
-        "allowed: value > 0.0075, which is jerk_rad_s3 (600) dt^2 / 8 at 100 Hz",
-        "--set: platform.stage_limits.travel_m = 1e-06: "
-        "allowed: value > 7.5e-05, which is acceleration_m_s2 (6) dt^2 / 8 at 100 Hz",
-        "--set: platform.stage_limits.travel_m = 1e-06: "
-        "allowed: value > 6.25e-05, which is acceleration_m_s2 (5) dt^2 / 8 at 100 Hz",
+        (
+            "--set: platform.wheel_limits.speed_rad_s = 1e-06: "
+            "allowed: value > 0.0075, which is jerk_rad_s3 (600) dt^2 / 8 at 100 Hz"
+        ),
+        (
+            "--set: platform.stage_limits.travel_m = 1e-06: "
+            "allowed: value > 7.5e-05, which is acceleration_m_s2 (6) dt^2 / 8 at 100 Hz"
+        ),
+        (
+            "--set: platform.stage_limits.travel_m = 1e-06: "
+            "allowed: value > 6.25e-05, which is acceleration_m_s2 (5) dt^2 / 8 at 100 Hz"
+        ),
     ]
 
 
 def test_limits_that_leave_no_room_name_the_platform_file(tmp_path: Path) -> None:
     text = presets()["atlas-2.9m"].read_text()
-    (tmp_path / "mine.toml").write_text(text.replace("speed_m_s = [1.5, 1.5, 1.2]", "speed_m_s = 1e-6"))
+    (tmp_path / "mine.toml").write_text(
+        text.replace("speed_m_s = [1.5, 1.5, 1.2]", "speed_m_s = 1e-6")
+    )
     scenario = loaded(tmp_path, "platform.file=mine.toml")
-    with pytest.raises(ScenarioError, match=r"mine\.toml: stage_limits\.speed_m_s = 1e-06: allowed: value > "):
+    with pytest.raises(
+        ScenarioError, match=r"mine\.toml: stage_limits\.speed_m_s = 1e-06: allowed: value > "
+    ):
         build_pipeline(scenario, 0.01)
 
 
@@ -94,19 +113,29 @@ def test_all_oracle_geometries_can_be_typed_into_a_platform(tmp_path: Path) -> N
             settings += [f"platform.wheel.{i}.radius_m={case['wheel_radius_m'][i]}"]
         geometry = loaded(tmp_path, *settings).platform.geometry()
         assert geometry.slip_free == case["slip_free"]
-        assert geometry.wheels_from_sphere == tuple(pytest.approx(row, abs=1e-12) for row in case["wheels_from_sphere"])
+        assert geometry.wheels_from_sphere == tuple(
+            pytest.approx(row, abs=1e-12) for row in case["wheels_from_sphere"]
+        )
 
 
-PUSHED = [VehicleState(i * 0.01, IDENTITY, ZERO, (0.5 if 100 < i < 150 else 0.0, 0.0, -STANDARD_GRAVITY)) for i in range(300)]
+PUSHED = [
+    VehicleState(i * 0.01, IDENTITY, ZERO, (0.5 if 100 < i < 150 else 0.0, 0.0, -STANDARD_GRAVITY))
+    for i in range(300)
+]
 
 
 def test_only_preview_needs_the_whole_flight(tmp_path: Path) -> None:
     assert loaded(tmp_path, "cueing.method=preview").needs_whole_flight
-    assert not any(loaded(tmp_path, f"cueing.method={method}").needs_whole_flight for method in METHODS)
+    assert not any(
+        loaded(tmp_path, f"cueing.method={method}").needs_whole_flight for method in METHODS
+    )
 
 
 def test_without_the_whole_flight_preview_is_refused_in_one_line(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"^scenario 'short': method 'preview' needs the whole flight .*does not fly live.*$"):
+    with pytest.raises(
+        InputError,
+        match=r"^scenario 'short': method 'preview' needs the whole flight .*does not fly live.*$",
+    ):
         build_pipeline(loaded(tmp_path, "cueing.method=preview"), 0.01)
 
 

@@ -1,4 +1,7 @@
-"""Runs of a real aircraft, and of vehicles that fail on purpose: whatever happens, the log is finished and readable."""
+"""Runs of a real aircraft, and of vehicles that fail on purpose.
+
+Whatever happens, the log is finished and readable.
+"""
 
 import signal
 from collections.abc import Callable
@@ -23,10 +26,16 @@ DT = 0.01
 
 
 class Double:
-    """A vehicle at rest for `ticks` steps, in whatever attitude; `event` is called at each step with its number."""
+    """A vehicle at rest for `ticks` steps, in whatever attitude.
+
+    `event` is called at each step with its number.
+    """
 
     def __init__(
-        self, ticks: int = 100, event: Event = lambda _: None, attitude: Callable[[int], Quat] = lambda _: IDENTITY
+        self,
+        ticks: int = 100,
+        event: Event = lambda _: None,
+        attitude: Callable[[int], Quat] = lambda _: IDENTITY,
     ) -> None:
         self._ticks, self._event, self._attitude = ticks, event, attitude
         self._tick = 0
@@ -38,7 +47,9 @@ class Double:
 
     @property
     def state(self) -> VehicleState:
-        return VehicleState(self._tick * DT, self._attitude(self._tick), self.rate, (0.0, 0.0, -STANDARD_GRAVITY))
+        return VehicleState(
+            self._tick * DT, self._attitude(self._tick), self.rate, (0.0, 0.0, -STANDARD_GRAVITY)
+        )
 
     def advance(self) -> bool:
         self._tick += 1
@@ -81,13 +92,19 @@ def test_a_real_flight(load: Load, tmp_path: Path) -> None:
     assert result.wall > 0.0
     log = read_log(result.log)
     assert len(log.column("/motion", "time_s")) == 55
-    assert [(round(time, 5), state) for time, state in states(result.log)] == [(0.0, "running"), (0.45, "done")]
+    assert [(round(time, 5), state) for time, state in states(result.log)] == [
+        (0.0, "running"),
+        (0.45, "done"),
+    ]
     assert log.attachments == scenario.attachments()
     assert log.metadata["scenario"] == "short"
     assert log.metadata["method"] == "blend"
     assert log.metadata["platform"] == "atlas-2.9m"
     assert (log.metadata["result"], log.metadata["reason"]) == ("ok", "")
-    assert all(log.metadata[f"{name}_version"][0].isdigit() for name in ("atlas_cueing", "jsbsim", "ruckig"))
+    assert all(
+        log.metadata[f"{name}_version"][0].isdigit()
+        for name in ("atlas_cueing", "jsbsim", "ruckig")
+    )
     assert {path.name for path in tmp_path.iterdir()} == {"s.toml", "log.mcap"}
 
 
@@ -97,15 +114,25 @@ def test_json_has_the_promised_keys(load: Load, tmp_path: Path) -> None:
     assert set(table) >= {"result", "reason", "log", "ticks", "duration_s", "violations", "metrics"}
     metrics = table["metrics"]
     assert isinstance(metrics, dict)
-    for name in ("force_rms_m_s2", "direction_rms_rad", "rate_rms_rad_s", "wheels_limited_share", "stage_limited_share"):
+    for name in (
+        "force_rms_m_s2",
+        "direction_rms_rad",
+        "rate_rms_rad_s",
+        "wheels_limited_share",
+        "stage_limited_share",
+    ):
         assert metrics[name] >= 0.0
     assert metrics["orientation_drift_max_rad"] < radians(0.05)
 
 
 def test_the_same_run_gives_the_same_bytes(load: Load, tmp_path: Path) -> None:
-    first, second = (run_scenario(load(), tmp_path / f"{i}.mcap").log.read_bytes() for i in range(2))
+    first, second = (
+        run_scenario(load(), tmp_path / f"{i}.mcap").log.read_bytes() for i in range(2)
+    )
     assert first == second
-    other = run_scenario(load("cueing.align_rate_deg_s=1"), tmp_path / "other.mcap").log.read_bytes()
+    other = run_scenario(
+        load("cueing.align_rate_deg_s=1"), tmp_path / "other.mcap"
+    ).log.read_bytes()
     assert other != first
 
 
@@ -126,7 +153,10 @@ def test_topics_left_out(load: Load, tmp_path: Path) -> None:
 
 def test_a_vehicle_that_fails(fly: Fly) -> None:
     result = fly(Double(event=raising(VehicleError(0.42, "the wing came off"), 42)))
-    assert (result.result, result.reason) == ("vehicle_failed", "vehicle failed at 0.420 s: the wing came off")
+    assert (result.result, result.reason) == (
+        "vehicle_failed",
+        "vehicle failed at 0.420 s: the wing came off",
+    )
     assert not result.clean
     assert result.ticks == 42
     log = read_log(result.log)
@@ -136,7 +166,9 @@ def test_a_vehicle_that_fails(fly: Fly) -> None:
     assert log.statuses[-1].reason == result.reason
 
 
-def test_a_vehicle_that_fails_at_once(load: Load, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_vehicle_that_fails_at_once(
+    load: Load, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def fail(_: object) -> None:
         raise VehicleError(0.0, "no trim")
 
@@ -149,7 +181,9 @@ def test_a_vehicle_that_fails_at_once(load: Load, tmp_path: Path, monkeypatch: p
 
 def test_a_crash_into_the_ground(load: Load, tmp_path: Path) -> None:
     """JSBSim itself: `cannonball` diverges in mid-run."""
-    result = run_scenario(load("vehicle.script=cannonball", "duration_s=600"), tmp_path / "log.mcap")
+    result = run_scenario(
+        load("vehicle.script=cannonball", "duration_s=600"), tmp_path / "log.mcap"
+    )
     assert result.result == "vehicle_failed"
     assert result.ticks > 10
     assert len(read_log(result.log).column("/motion", "time_s")) == result.ticks
@@ -170,7 +204,9 @@ def test_a_keyboard_interrupt_out_of_nowhere(fly: Fly) -> None:
     assert read_log(result.log).metadata["result"] == "interrupted"
 
 
-def test_an_error_that_nobody_expected_is_raised_after_the_log_is_finished(fly: Fly, tmp_path: Path) -> None:
+def test_an_error_that_nobody_expected_is_raised_after_the_log_is_finished(
+    fly: Fly, tmp_path: Path
+) -> None:
     with pytest.raises(ZeroDivisionError):
         fly(Double(event=raising(ZeroDivisionError("oops"), 10)))
     log = read_log(tmp_path / "log.mcap")
@@ -207,7 +243,13 @@ def test_jumps_are_noted_once_each(fly: Fly) -> None:
     result = fly(Double(60, attitude=lambda tick: exp((radians(10.0) * (tick // 20), 0.0, 0.0))))
     assert states(result.log) == [
         (0.0, "running"),
-        *((0.2, "attitude_jump"), (0.21, "running"), (0.4, "attitude_jump"), (0.41, "running"), (0.6, "attitude_jump")),
+        *(
+            (0.2, "attitude_jump"),
+            (0.21, "running"),
+            (0.4, "attitude_jump"),
+            (0.41, "running"),
+            (0.6, "attitude_jump"),
+        ),
         (0.6, "done"),
     ]
     assert "10 deg" in read_log(result.log).statuses[1].reason
@@ -238,7 +280,9 @@ def refuse_to_fly(scenario: Scenario, folder: Path, error: type[InputError]) -> 
 def test_nothing_is_written_for_bad_input(load: Load, tmp_path: Path) -> None:
     flat = [
         f"platform.wheel.{i}.contact={c}"
-        for i, c in enumerate(["[1,0,0]", "[-0.5,-0.8660254037844386,0]", "[-0.5,0.8660254037844386,0]"])
+        for i, c in enumerate(
+            ["[1,0,0]", "[-0.5,-0.8660254037844386,0]", "[-0.5,0.8660254037844386,0]"]
+        )
     ]
     refuse_to_fly(load(*flat), tmp_path, SlipConditionError)
     refuse_to_fly(load("vehicle.script=unitconversions"), tmp_path, InputError)
@@ -248,7 +292,10 @@ def test_nothing_is_written_for_bad_input(load: Load, tmp_path: Path) -> None:
 
 def test_preview_knows_what_the_vehicle_will_do(load: Load, tmp_path: Path) -> None:
     """The vehicle is the one that any method flies; only the platform knows better."""
-    plain, planned = (run_scenario(load(f"cueing.method={m}"), tmp_path / f"{m}.mcap") for m in ("blend", "preview"))
+    plain, planned = (
+        run_scenario(load(f"cueing.method={m}"), tmp_path / f"{m}.mcap")
+        for m in ("blend", "preview")
+    )
     assert planned.clean
     assert planned.ticks == plain.ticks
     one, other = (read_log(result.log) for result in (plain, planned))
@@ -256,12 +303,15 @@ def test_preview_knows_what_the_vehicle_will_do(load: Load, tmp_path: Path) -> N
     assert one.statuses == other.statuses
     assert other.metadata["method"] == "preview"
     force, rate = (
-        [result.evaluation.metrics[name] for result in (planned, plain)] for name in ("force_rms_m_s2", "rate_rms_rad_s")
+        [result.evaluation.metrics[name] for result in (planned, plain)]
+        for name in ("force_rms_m_s2", "rate_rms_rad_s")
     )
     assert combined(force[0], rate[0])["cost"] < combined(force[1], rate[1])["cost"]
 
 
-def test_a_flight_that_fails_is_planned_up_to_there(load: Load, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_flight_that_fails_is_planned_up_to_there(
+    load: Load, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     vehicle = Double(event=raising(VehicleError(0.5, "fell apart"), at=50))
     monkeypatch.setattr(run_module, "JsbsimVehicle", lambda _: vehicle)
     result = run_scenario(load("cueing.method=preview"), tmp_path / "log.mcap")
@@ -270,7 +320,9 @@ def test_a_flight_that_fails_is_planned_up_to_there(load: Load, tmp_path: Path, 
     assert states(result.log)[-1] == (0.49, "vehicle_failed")
 
 
-def test_a_flight_without_a_plan_writes_nothing(load: Load, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_flight_without_a_plan_writes_nothing(
+    load: Load, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     vehicle = Double()
     vehicle.rate = (1e7, 0.0, 0.0)
     monkeypatch.setattr(run_module, "JsbsimVehicle", lambda _: vehicle)

@@ -28,7 +28,10 @@ def test_an_existing_log_needs_force(tmp_path: Path) -> None:
 def test_what_is_left_of_another_run_needs_force_where_a_new_one_begins(tmp_path: Path) -> None:
     part = tmp_path / "new.mcap.part"
     part.write_bytes(MCAP)
-    with pytest.raises(OutputError, match=r"new\.mcap\.part is there.*recover .*new\.mcap\.part -o NAME\.mcap.*--force"):
+    with pytest.raises(
+        OutputError,
+        match=r"new\.mcap\.part is there.*recover .*new\.mcap\.part -o NAME\.mcap.*--force",
+    ):
         check_output(tmp_path / "new.mcap", force=False, fresh=True)
     check_output(tmp_path / "new.mcap", force=True, fresh=True)
     check_output(tmp_path / "new.mcap", force=False)  # as for recover, whose input it may be
@@ -47,7 +50,9 @@ def test_what_can_never_be_a_log(tmp_path: Path, force: bool) -> None:
         check_output(tmp_path / ("x" * 300), force=force)
 
 
-def test_a_folder_that_cannot_be_written_to(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_folder_that_cannot_be_written_to(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Asked of the system, as the tests may run as a user who can write anywhere."""
     asked = []
     monkeypatch.setattr(os, "access", lambda path, mode: asked.append((path, mode)))
@@ -58,7 +63,9 @@ def test_a_folder_that_cannot_be_written_to(tmp_path: Path, monkeypatch: pytest.
 
 @pytest.mark.parametrize("kind", [LOG, PAGE], ids=lambda kind: kind.name)
 @pytest.mark.parametrize("old", ["log", "page", "empty", "text", "page of another"])
-def test_force_replaces_only_what_is_empty_or_of_the_kind(tmp_path: Path, kind: Kind, old: str) -> None:
+def test_force_replaces_only_what_is_empty_or_of_the_kind(
+    tmp_path: Path, kind: Kind, old: str
+) -> None:
     write_page(tmp_path / "page", "<!DOCTYPE html><html></html>")
     (tmp_path / "log").write_bytes(MCAP)
     (tmp_path / "empty").touch()
@@ -108,7 +115,9 @@ def test_no_file_is_written_twice(tmp_path: Path) -> None:
         check_output(tmp_path / "link", PAGE, outputs=[tmp_path / "new"], force=True)
 
 
-def test_in_a_folder_like_tmp_everybody_replaces_only_what_is_theirs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_in_a_folder_like_tmp_everybody_replaces_only_what_is_theirs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Asked of the system, as above."""
     (tmp_path / "log.mcap").write_bytes(MCAP)
     monkeypatch.setattr(os, "geteuid", lambda: os.getuid() + 1)

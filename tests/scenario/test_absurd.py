@@ -54,7 +54,10 @@ def test_as_many_as_are_shown_are_not_counted(file: Path) -> None:
 
 def test_broken_rules_are_counted_too(file: Path) -> None:
     signal = '[[vehicle.signal]]\naxis = "force_x"\nshape = "sine"\nduration_s = 1\n'
-    text = 'name = "s"\n[platform]\npreset = "atlas-2.9m"\n[vehicle]\nsource = "signal"\n' + signal * 200
+    text = (
+        'name = "s"\n[platform]\npreset = "atlas-2.9m"\n[vehicle]\nsource = "signal"\n'
+        + signal * 200
+    )
     assert str(mistakes(file, text)[-1]).endswith("file: and 300 more mistakes")
 
 
@@ -67,17 +70,24 @@ def test_more_keys_than_any_scenario_has(file: Path) -> None:
     assert len(parse_toml("".join(f"k{i}=1\n" for i in range(MOST_KEYS)), "f.toml")) == MOST_KEYS
 
 
-@pytest.mark.parametrize("name", ["k" * 200_000, '"' + "é" * (LONGEST_KEY + 1) + '"', "a.b." + "c" * (LONGEST_KEY + 1)])
+@pytest.mark.parametrize(
+    "name", ["k" * 200_000, '"' + "é" * (LONGEST_KEY + 1) + '"', "a.b." + "c" * (LONGEST_KEY + 1)]
+)
 def test_a_key_that_would_fill_the_screen(name: str) -> None:
-    with pytest.raises(ScenarioError, match=f"a key is too long, allowed: length <= {LONGEST_KEY}") as refusal:
+    with pytest.raises(
+        ScenarioError, match=f"a key is too long, allowed: length <= {LONGEST_KEY}"
+    ) as refusal:
         parse_toml(f"{name} = 1", "f.toml")
     assert len(str(refusal.value)) < 300
     assert parse_toml("k" * LONGEST_KEY + " = 1", "f.toml")
 
 
 def test_tables_without_end(file: Path) -> None:
-    (found, *_) = mistakes(file, AIRCRAFT.format("{}," * 60_000))
-    assert (found.key, found.allowed) == ("vehicle.input", "60000 tables [[vehicle.input]], allowed: at most 5000")
+    found, *_ = mistakes(file, AIRCRAFT.format("{}," * 60_000))
+    assert (found.key, found.allowed) == (
+        "vehicle.input",
+        "60000 tables [[vehicle.input]], allowed: at most 5000",
+    )
 
 
 def test_a_list_of_topics_without_end(file: Path) -> None:
@@ -92,8 +102,14 @@ def test_a_list_of_topics_without_end(file: Path) -> None:
             "".join(f"cueing.k{i} = [1, 2, 3, 4, 5, 6, 7, 8]\n" for i in range(10)),
             "1073741824 runs, allowed: runs <= 10000; several files may share the rest",
         ),
-        ("draws = 1000000000\nduration_s = { low = 1, high = 2 }\n", "allowed: a whole number, 1 <= value <= 10000"),
-        ("draws = 10000\n" + "".join(f"k{i} = {{ low = 1, high = 2 }}\n" for i in range(17)), "17 keys, allowed: keys <= 16"),
+        (
+            "draws = 1000000000\nduration_s = { low = 1, high = 2 }\n",
+            "allowed: a whole number, 1 <= value <= 10000",
+        ),
+        (
+            "draws = 10000\n" + "".join(f"k{i} = {{ low = 1, high = 2 }}\n" for i in range(17)),
+            "17 keys, allowed: keys <= 16",
+        ),
         (f'vehicle.script = "{"*a" * 100_000}"\n', "a pattern is too long, allowed: length <= 200"),
     ],
     ids=["grid", "draws", "keys", "pattern"],
@@ -102,11 +118,13 @@ def test_sweeps_without_end_are_refused_before_any_run_is_made(
     file: Path, text: str, allowed: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.delattr(sweep, "resolve")
-    (found, *_) = mistakes(file, f"{SCRIPT}[sweep]\n{text}", load_variants)
+    found, *_ = mistakes(file, f"{SCRIPT}[sweep]\n{text}", load_variants)
     assert found.allowed == allowed
 
 
-def test_a_sweep_in_which_every_run_is_wrong_is_given_up(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_sweep_in_which_every_run_is_wrong_is_given_up(
+    file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     looked_at = []
     resolve = sweep.resolve
 
@@ -115,16 +133,26 @@ def test_a_sweep_in_which_every_run_is_wrong_is_given_up(file: Path, monkeypatch
         return resolve(*arguments, **options)  # type: ignore[arg-type]
 
     monkeypatch.setattr(sweep, "resolve", counted)
-    (found,) = mistakes(file, SCRIPT + "[sweep]\nduration_s = [" + "-1," * MAX_RUNS + "]\n", load_variants)
+    (found,) = mistakes(
+        file, SCRIPT + "[sweep]\nduration_s = [" + "-1," * MAX_RUNS + "]\n", load_variants
+    )
     assert "duration_s = -1" in str(found)
     assert len(looked_at) == sweep.MAX_SPOILT
 
 
 def test_runs_of_a_long_file_are_fewer(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Every run is checked before the first one flies, and takes as long as the file has keys."""
-    events = "".join(f'[[vehicle.input]]\ntime_s = {i}\nproperty = "fcs/rudder-cmd-norm"\nvalue = 0\n' for i in range(200))
-    (found,) = mistakes(file, f"{FLOWN}{events}[sweep]\nduration_s = [{'1, ' * 900}]", load_variants)
-    assert found.allowed == "900 runs of a file of 610 keys, allowed: runs <= 819; several files may share the rest"
+    events = "".join(
+        f'[[vehicle.input]]\ntime_s = {i}\nproperty = "fcs/rudder-cmd-norm"\nvalue = 0\n'
+        for i in range(200)
+    )
+    (found,) = mistakes(
+        file, f"{FLOWN}{events}[sweep]\nduration_s = [{'1, ' * 900}]", load_variants
+    )
+    assert (
+        found.allowed
+        == "900 runs of a file of 610 keys, allowed: runs <= 819; several files may share the rest"
+    )
     file.write_text(f"{FLOWN}{events}[sweep]\nduration_s = [{'1, ' * 819}]")
     monkeypatch.setattr(sweep, "resolve", lambda *_, **__: (_ for _ in ()).throw(LookedAtError))
     with pytest.raises(LookedAtError):
@@ -140,7 +168,9 @@ class LookedAtError(Exception):
     """A run was looked at."""
 
 
-def test_a_platform_file_is_read_once_for_all_runs(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_platform_file_is_read_once_for_all_runs(
+    file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A wrong one, too: hundreds of times 256 kB would take a minute."""
     opened, read = [], reading.read_toml
 
@@ -150,7 +180,8 @@ def test_a_platform_file_is_read_once_for_all_runs(file: Path, monkeypatch: pyte
 
     monkeypatch.setattr(reading, "read_toml", counted)
     file.write_text(
-        SCRIPT.replace('preset = "atlas-2.9m"', 'file = "p.toml"') + "[sweep]\nplatform.sphere.radius_m = [1, 2, 3]"
+        SCRIPT.replace('preset = "atlas-2.9m"', 'file = "p.toml"')
+        + "[sweep]\nplatform.sphere.radius_m = [1, 2, 3]"
     )
     (file.parent / "p.toml").write_text("[")
     with pytest.raises(ScenarioError, match=r"p\.toml: TOML: not valid"):
@@ -168,17 +199,26 @@ def test_runs_share_what_the_sweep_leaves_alone(file: Path) -> None:
     first, *others = [variant.scenario for variant in load_variants(file)]
     for other in others:
         assert other.platform is first.platform
-        assert all(mine is yours for mine, yours in zip(first.file.vehicle.input, other.file.vehicle.input, strict=True))
+        assert all(
+            mine is yours
+            for mine, yours in zip(first.file.vehicle.input, other.file.vehicle.input, strict=True)
+        )
 
 
 @pytest.mark.parametrize(
     "swept",
-    ["vehicle.input.1.value = [1, 2, 3]", "vehicle.script = ['c1722', 'ball']", "vehicle.initial.pitch_deg = [1, 2]"],
+    [
+        "vehicle.input.1.value = [1, 2, 3]",
+        "vehicle.script = ['c1722', 'ball']",
+        "vehicle.initial.pitch_deg = [1, 2]",
+    ],
 )
 def test_sharing_changes_nothing(file: Path, swept: str) -> None:
     """Each run is what the file gives with that run's settings alone."""
     events = '[[vehicle.input]]\ntime_s = 1\nproperty = "fcs/rudder-cmd-norm"\nvalue = 0\n' * 3
-    file.write_text(f"{FLOWN}{events}[sweep]\n{swept}\nplatform.rider.head_m = [[0, 0, 0], [0, 0, 0.5]]")
+    file.write_text(
+        f"{FLOWN}{events}[sweep]\n{swept}\nplatform.rider.head_m = [[0, 0, 0], [0, 0, 0.5]]"
+    )
     runs = load_variants(file, ["cueing.method=force"])
     assert len(runs) >= 4
     file.write_text(FLOWN + events)
@@ -204,7 +244,9 @@ def test_a_description_that_would_fill_every_log(file: Path) -> None:
 
 
 def test_every_wrong_choice_of_a_sweep_is_not_told(file: Path) -> None:
-    found = mistakes(file, SCRIPT + "[sweep]\n" + "".join(f"k{i} = 1\n" for i in range(1000)), load_variants)
+    found = mistakes(
+        file, SCRIPT + "[sweep]\n" + "".join(f"k{i} = 1\n" for i in range(1000)), load_variants
+    )
     assert len(found) == sweep.MAX_MISTAKES + 1
     assert str(found[-1]).endswith("and 951 more mistakes")
 

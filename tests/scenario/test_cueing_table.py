@@ -24,7 +24,9 @@ from atlas_cueing.scenario.cueing_table import (
     PreviewTable,
 )
 
-adapter: TypeAdapter[AttitudeTable | BlendTable | ForceTable | ClassicalTable | PreviewTable] = TypeAdapter(CueingTable)
+adapter: TypeAdapter[AttitudeTable | BlendTable | ForceTable | ClassicalTable | PreviewTable] = (
+    TypeAdapter(CueingTable)
+)
 
 
 def test_defaults_are_those_of_the_cueing_itself() -> None:
@@ -56,7 +58,12 @@ def test_every_key_of_blend_arrives() -> None:
             "align_time_s": 5.0,
             "align_smoothing_s": 0.25,
             "hold_force_m_s2": 4.0,
-            "stage": {"onset_rad_s": 2.5, "recentre_rad_s": [0.3, 0, 0.1], "bandwidth_hz": 8, "travel_m": [0.5, 0.6, 0.7]},
+            "stage": {
+                "onset_rad_s": 2.5,
+                "recentre_rad_s": [0.3, 0, 0.1],
+                "bandwidth_hz": 8,
+                "travel_m": [0.5, 0.6, 0.7],
+            },
         }
     )
     method = table.parameters()
@@ -64,12 +71,20 @@ def test_every_key_of_blend_arrives() -> None:
     assert method.rotation_gain == (1.0, 2.0, 3.0)
     assert degrees(method.turn.rate) == pytest.approx(2.0)
     assert (method.turn.time, method.turn.smoothing, method.hold) == (5.0, 0.25, 4.0)
-    assert table.stage_parameters() == StageParameters((0.5,) * 3, (2.5,) * 3, (0.3, 0.0, 0.1), 8.0, (0.5, 0.6, 0.7))
+    assert table.stage_parameters() == StageParameters(
+        (0.5,) * 3, (2.5,) * 3, (0.3, 0.0, 0.1), 8.0, (0.5, 0.6, 0.7)
+    )
 
 
 def test_every_key_of_attitude_arrives() -> None:
     table = adapter.validate_python(
-        {"method": "attitude", "rotation_gain": 0.5, "return_rate_deg_s": 1, "return_time_s": 4, "return_smoothing_s": 2}
+        {
+            "method": "attitude",
+            "rotation_gain": 0.5,
+            "return_rate_deg_s": 1,
+            "return_time_s": 4,
+            "return_smoothing_s": 2,
+        }
     )
     method = table.parameters()
     assert isinstance(method, AttitudeParameters)
@@ -101,7 +116,10 @@ def test_every_key_of_force_arrives() -> None:
 
 
 def test_every_key_of_classical_arrives() -> None:
-    """The gain of the force is that of the tilt and of the stage; its stage keeps the set's numbers but those given."""
+    """The gain of the force is that of the tilt and of the stage.
+
+    Its stage keeps the set's numbers but those given.
+    """
     table = adapter.validate_python(
         {
             "method": "classical",
@@ -111,19 +129,31 @@ def test_every_key_of_classical_arrives() -> None:
             "tilt_low_pass_rad_s": 1.5,
             "tilt_rate_deg_s": 5,
             "angle_limit_deg": 1e6,
-            "stage": {"onset_rad_s": 1.1, "recentre_rad_s": 0, "bandwidth_hz": 7, "travel_m": [0.1, 0.2, 0.3]},
+            "stage": {
+                "onset_rad_s": 1.1,
+                "recentre_rad_s": 0,
+                "bandwidth_hz": 7,
+                "travel_m": [0.1, 0.2, 0.3],
+            },
         }
     )
     method = table.parameters()
     assert isinstance(method, ClassicalParameters)
     assert (method.rotation_gain, method.tilt_gain) == ((0.1, 0.2, 0.3), (0.4, 0.5, 0.6))
     assert (method.high_pass, method.tilt_low_pass) == ((0.7, 0.8, 0.9), 1.5)
-    assert (degrees(method.tilt_rate), degrees(method.angle_limit)) == (pytest.approx(5.0), pytest.approx(1e6))
-    assert table.stage_parameters() == StageParameters((0.4, 0.5, 0.6), (1.1,) * 3, (0.0,) * 3, 7.0, (0.1, 0.2, 0.3), None)
+    assert (degrees(method.tilt_rate), degrees(method.angle_limit)) == (
+        pytest.approx(5.0),
+        pytest.approx(1e6),
+    )
+    assert table.stage_parameters() == StageParameters(
+        (0.4, 0.5, 0.6), (1.1,) * 3, (0.0,) * 3, 7.0, (0.1, 0.2, 0.3), None
+    )
 
 
 @pytest.mark.parametrize("stage", [{}, {"bandwidth_hz": 5}])
-def test_a_stage_table_of_classical_keeps_the_set_for_what_it_leaves_out(stage: dict[str, float]) -> None:
+def test_a_stage_table_of_classical_keeps_the_set_for_what_it_leaves_out(
+    stage: dict[str, float],
+) -> None:
     """Writing down a default changes nothing."""
     table = adapter.validate_python({"method": "classical", "stage": stage})
     assert table.stage_parameters() == CLASSICAL_STAGE
@@ -142,7 +172,8 @@ def test_the_list_of_methods_is_the_union() -> None:
     tables = [get_args(branch)[0] for branch in get_args(union)]
     assert list(ALL_METHODS.values()) == tables
     assert [table.model_fields["method"].default for table in tables] == list(ALL_METHODS)
-    assert set(ALL_METHODS) - set(METHODS) == {"preview"}  # it cannot fly live, so no pattern means it
+    # it cannot fly live, so no pattern means it
+    assert set(ALL_METHODS) - set(METHODS) == {"preview"}
 
 
 def test_every_key_of_preview_arrives() -> None:

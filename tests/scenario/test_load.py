@@ -32,7 +32,10 @@ def test_platform_keys_go_over_the_presets(tmp_path: Path) -> None:
     assert speed(tmp_path) == (31.0,) * 3
     assert speed(tmp_path, "platform.wheel_limits.speed_rad_s=20") == (20.0,) * 3
     assert speed(tmp_path, "platform.wheel_limits.speed_rad_s=[31, 20, 10.5]") == (31.0, 20.0, 10.5)
-    with pytest.raises(ScenarioError, match=r"^--set: platform\.wheel_limits\.speed_rad_s\.1 = 20: .* is not a table$"):
+    with pytest.raises(
+        ScenarioError,
+        match=r"^--set: platform\.wheel_limits\.speed_rad_s\.1 = 20: .* is not a table$",
+    ):
         speed(tmp_path, "platform.wheel_limits.speed_rad_s.1=20")
 
 
@@ -46,10 +49,22 @@ def test_platform_file(tmp_path: Path) -> None:
 
 
 def test_mistakes_of_both_files_and_of_the_command_line_together(tmp_path: Path) -> None:
-    (tmp_path / "mine.toml").write_text(presets()["atlas-1.5m"].read_text().replace("radius_m = 0.75", "radius_m = -1"))
-    path = written(tmp_path, SCRIPT.replace('preset = "atlas-2.9m"', 'file = "mine.toml"').replace("name", "nam"))
+    (tmp_path / "mine.toml").write_text(
+        presets()["atlas-1.5m"].read_text().replace("radius_m = 0.75", "radius_m = -1")
+    )
+    path = written(
+        tmp_path,
+        SCRIPT.replace('preset = "atlas-2.9m"', 'file = "mine.toml"').replace("name", "nam"),
+    )
     with pytest.raises(ScenarioError) as refusal:
-        load_scenario(path, ["duration_s=abc", "platform.wheel_limits.speed_rad_s=0", "cueing.stage.bandwidth_hz=-1"])
+        load_scenario(
+            path,
+            [
+                "duration_s=abc",
+                "platform.wheel_limits.speed_rad_s=0",
+                "cueing.stage.bandwidth_hz=-1",
+            ],
+        )
     found = [(Path(mistake.file).name, mistake.key) for mistake in refusal.value.mistakes]
     assert found == [
         ("s.toml", "nam"),
@@ -66,12 +81,19 @@ def test_platform_mistakes_name_the_file(refused: Refused) -> None:
         "none.toml: file: cannot be read: No such file or directory"
     ]
     (line,) = refused(SCRIPT.replace('preset = "atlas-2.9m"', 'file = "a\\nb"'))
-    assert line == r"bad.toml: platform.file = 'a\nb': allowed: path of a platform file, from the scenario's folder"
+    assert (
+        line == r"bad.toml: platform.file = 'a\nb': allowed: path of a platform file, from the"
+        r" scenario's folder"
+    )
     both = SCRIPT.replace("[platform]", '[platform]\nfile = "none.toml"')
     assert refused(both) == ["bad.toml: platform: exactly one of preset and file"]
-    assert refused(SCRIPT.replace('preset = "atlas-2.9m"', "")) == ["bad.toml: platform: exactly one of preset and file"]
+    assert refused(SCRIPT.replace('preset = "atlas-2.9m"', "")) == [
+        "bad.toml: platform: exactly one of preset and file"
+    ]
     assert refused(SCRIPT.split("[platform]")[0]) == ["bad.toml: platform: missing"]
-    assert refused("platform = 3\n" + SCRIPT.split("[platform]")[0]) == ["bad.toml: platform = 3: allowed: a table"]
+    assert refused("platform = 3\n" + SCRIPT.split("[platform]")[0]) == [
+        "bad.toml: platform = 3: allowed: a table"
+    ]
     assert refused("") == [f"bad.toml: {key}: missing" for key in ("name", "vehicle", "platform")]
 
 
@@ -93,7 +115,9 @@ def test_any_method_from_the_command_line(tmp_path: Path, method: str) -> None:
     assert cueing.method == method
     assert cueing.rotation_gain == (0.5, 0.5, 0.5)
     assert cueing.stage.onset_rad_s == (2.0, 2.0, 2.0)
-    other = load_scenario(path, [f"cueing.method={method}", "cueing.stage.onset_rad_s=[1,2,3]"]).file.cueing
+    other = load_scenario(
+        path, [f"cueing.method={method}", "cueing.stage.onset_rad_s=[1,2,3]"]
+    ).file.cueing
     assert other.stage.onset_rad_s == (1.0, 2.0, 3.0)
 
 
@@ -105,7 +129,9 @@ def test_a_wrong_key_is_not_left_behind(tmp_path: Path) -> None:
 
 def test_an_unknown_method_from_the_command_line(tmp_path: Path) -> None:
     allowed = "attitude, blend, classical, force, preview"
-    with pytest.raises(ScenarioError, match=rf"^--set: cueing\.method = 'hexapod': allowed: {allowed}$"):
+    with pytest.raises(
+        ScenarioError, match=rf"^--set: cueing\.method = 'hexapod': allowed: {allowed}$"
+    ):
         load_scenario(written(tmp_path), ["cueing.method=hexapod"])
 
 
@@ -117,7 +143,10 @@ def test_inputs_from_the_command_line(tmp_path: Path) -> None:
 def test_platform_by_name_or_path(tmp_path: Path) -> None:
     (tmp_path / "p.toml").write_text(presets()["atlas-tabletop"].read_text())
     assert load_platform(str(tmp_path / "p.toml")) == load_platform("atlas-tabletop")
-    with pytest.raises(ScenarioError, match=r"atlas-2.9: file: no such file or platform; did you mean 'atlas-2.9m'\?"):
+    with pytest.raises(
+        ScenarioError,
+        match=r"atlas-2.9: file: no such file or platform; did you mean 'atlas-2.9m'\?",
+    ):
         load_platform("atlas-2.9")
     with pytest.raises(ScenarioError, match="no such file or platform"):
         load_platform("x" * 5000)  # which no file system looks for
@@ -141,11 +170,17 @@ def test_a_name_must_fit_a_file(refused: Refused, bad: str) -> None:
 
 
 scalars = st.one_of(
-    st.booleans(), st.integers(), st.floats(), st.text(max_size=5), st.sampled_from(["blend", "c1722", "f16", "/tf"])
+    st.booleans(),
+    st.integers(),
+    st.floats(),
+    st.text(max_size=5),
+    st.sampled_from(["blend", "c1722", "f16", "/tf"]),
 )
 anything = st.recursive(
     scalars,
-    lambda inner: st.one_of(st.lists(inner, max_size=3), st.dictionaries(st.text(max_size=3), inner, max_size=2)),
+    lambda inner: st.one_of(
+        st.lists(inner, max_size=3), st.dictionaries(st.text(max_size=3), inner, max_size=2)
+    ),
     max_leaves=6,
 )
 KEYS = [
@@ -182,13 +217,19 @@ KEYS += [
 
 
 @settings(max_examples=200)
-@given(st.dictionaries(st.sampled_from(KEYS), anything, min_size=1, max_size=4), st.lists(st.sampled_from(KEYS), max_size=2))
+@given(
+    st.dictionaries(st.sampled_from(KEYS), anything, min_size=1, max_size=4),
+    st.lists(st.sampled_from(KEYS), max_size=2),
+)
 def test_anything_anywhere_is_loaded_or_refused(
     tmp_path_factory: pytest.TempPathFactory, changes: dict[str, Any], lists: list[str]
 ) -> None:
     """Every value at every place gives a scenario or a list of mistakes that names files and keys, nothing else."""
     data = tomllib.loads(AIRCRAFT)
-    apply_overrides(data, {key: value for text, value in changes.items() for key in parse_overrides([f"{text}=0"])})
+    apply_overrides(
+        data,
+        {key: value for text, value in changes.items() for key in parse_overrides([f"{text}=0"])},
+    )
     folder = tmp_path_factory.mktemp("any")
     (folder / "s.toml").write_text(tomli_w.dumps(data))
     try:

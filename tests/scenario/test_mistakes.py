@@ -50,11 +50,17 @@ def test_all_mistakes_at_once_in_the_order_of_the_file(refused: Refused) -> None
 
 
 def test_each_says_what_is_allowed(refused: Refused) -> None:
-    allowed = {line.split(": ")[1].split(" = ")[0]: line.split(": ", 2)[2] for line in refused(EVERYTHING_WRONG)}
-    assert allowed["nam"].startswith("unknown key; did you mean 'name'? allowed: cueing, description, duration_s, name,")
+    allowed = {
+        line.split(": ")[1].split(" = ")[0]: line.split(": ", 2)[2]
+        for line in refused(EVERYTHING_WRONG)
+    }
+    assert allowed["nam"].startswith(
+        "unknown key; did you mean 'name'? allowed: cueing, description, duration_s, name,"
+    )
     assert allowed["vehicle.script"].endswith("did you mean 'c172_elevator_doublet'?")
     assert "did you mean 'atlas-2.9m'?" in allowed["platform.preset"]
-    assert "return_rate_deg_s" in allowed["cueing.align_rate_deg_s"]  # a key of another method: those of this one are listed
+    # a key of another method: those of this one are listed
+    assert "return_rate_deg_s" in allowed["cueing.align_rate_deg_s"]
     assert "hold_force_m_s2" not in allowed["cueing.align_rate_deg_s"]
     assert allowed["cueing.rotation_gain"] == "allowed: a number, 0 <= value <= 10"
     assert allowed["cueing.stage"] == "allowed: a table"
@@ -64,7 +70,8 @@ def test_each_says_what_is_allowed(refused: Refused) -> None:
 def test_an_unknown_method_lists_the_known_ones(refused: Refused) -> None:
     text = AIRCRAFT.replace('"attitude"', '"atitude"')
     assert refused(text) == [
-        "bad.toml: cueing.method = 'atitude': did you mean 'attitude'? allowed: attitude, blend, classical, force, preview"
+        "bad.toml: cueing.method = 'atitude': did you mean 'attitude'? allowed: attitude, blend,"
+        " classical, force, preview"
     ]
     assert refused(AIRCRAFT.replace('"attitude"', "3")) == [
         "bad.toml: cueing.method = 3: allowed: attitude, blend, classical, force, preview"
@@ -76,7 +83,9 @@ def test_an_unknown_method_lists_the_known_ones(refused: Refused) -> None:
 
 def test_unknown_keys_deep_in_lists_know_their_neighbours(refused: Refused) -> None:
     (line,) = refused(AIRCRAFT.replace("ramp_s", "ramp"))
-    assert line.startswith("bad.toml: vehicle.input.1.ramp = 0.25: unknown key; did you mean 'ramp_s'?")
+    assert line.startswith(
+        "bad.toml: vehicle.input.1.ramp = 0.25: unknown key; did you mean 'ramp_s'?"
+    )
 
 
 def test_a_number_that_stands_for_three_is_reported_once(refused: Refused) -> None:
@@ -112,7 +121,9 @@ def test_platform_mistakes() -> None:
 
 
 def test_nearest() -> None:
-    assert nearest("blnd", ["attitude", "blend"]) == "did you mean 'blend'? allowed: attitude, blend"
+    assert (
+        nearest("blnd", ["attitude", "blend"]) == "did you mean 'blend'? allowed: attitude, blend"
+    )
     assert nearest("xyz", ["b", "a"]) == "allowed: a, b"
     many = [f"name{i}" for i in range(50)]
     assert nearest("name7x", many) == "did you mean 'name7'?"

@@ -35,7 +35,10 @@ def test_values_are_toml_or_bare_strings(text: str, value: object) -> None:
 
 
 def test_keys() -> None:
-    assert list(parse_overrides(["vehicle.input.0.value=1", "a_b-c.d=2"])) == [("vehicle", "input", 0, "value"), ("a_b-c", "d")]
+    assert list(parse_overrides(["vehicle.input.0.value=1", "a_b-c.d=2"])) == [
+        ("vehicle", "input", 0, "value"),
+        ("a_b-c", "d"),
+    ]
 
 
 def test_the_last_of_equal_keys_counts() -> None:
@@ -63,7 +66,9 @@ def test_items_of_lists() -> None:
     data: dict = {"wheel": [{"r": 1}, {"r": 2}], "v": [1, 2, 3]}
     assert applied(data, "wheel.1.r=5", "v.0=9") == []
     assert data == {"wheel": [{"r": 1}, {"r": 5}], "v": [9, 2, 3]}
-    assert applied(data, "wheel.2.r=5") == ["--set: wheel.2.r = 5: allowed: wheel.N with 0 <= N <= 1"]
+    assert applied(data, "wheel.2.r=5") == [
+        "--set: wheel.2.r = 5: allowed: wheel.N with 0 <= N <= 1"
+    ]
     assert applied(data, "wheel.r=5") == ["--set: wheel.r = 5: allowed: wheel.N with 0 <= N <= 1"]
 
 

@@ -1,4 +1,7 @@
-"""The presets say what was published, and mark the rest; a platform file is checked in every key."""
+"""The presets say what was published, and mark the rest.
+
+A platform file is checked in every key.
+"""
 
 import json
 import re
@@ -33,19 +36,25 @@ def test_geometry_is_the_papers(name: str) -> None:
     geometry = load_platform(name).geometry()
     np.testing.assert_allclose(geometry.induced_rows, case["induced_rows"], atol=1e-15)
     scale = geometry.sphere_radius / geometry.wheels[0].radius
-    np.testing.assert_allclose(geometry.wheels_from_sphere, scale * np.array(case["induced_rows"]), rtol=1e-12)
+    np.testing.assert_allclose(
+        geometry.wheels_from_sphere, scale * np.array(case["induced_rows"]), rtol=1e-12
+    )
     assert Wheels(geometry).sphere_from_wheels
 
 
 def test_published_diameters() -> None:
-    assert 2.0 * load_platform("atlas-2.9m").sphere.radius_m == pytest.approx(9.5 * 0.3048, abs=0.01)
+    assert 2.0 * load_platform("atlas-2.9m").sphere.radius_m == pytest.approx(
+        9.5 * 0.3048, abs=0.01
+    )
     assert 2.0 * load_platform("atlas-1.5m").sphere.radius_m == 1.5
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_every_number_is_published_or_marked_as_assumed(name: str) -> None:
     published = r"radius_m.*# published|contact|drive"
-    lines = [line for line in presets()[name].read_text().splitlines() if re.match(r"\w+ = [\d\[]", line)]
+    lines = [
+        line for line in presets()[name].read_text().splitlines() if re.match(r"\w+ = [\d\[]", line)
+    ]
     assert len(lines) == 1 + 9 + 7 + 1  # sphere, wheels, limits, rider
     for line in lines:
         assert re.match(published, line) or re.search(r"# assumed: .{10}", line), line
@@ -57,7 +66,9 @@ def test_limits_fit_each_other(name: str) -> None:
     platform = load_platform(name)
     assert headroom(platform.geometry(), platform.wheel_limit_values()).worst_rate > pi
     limits = platform.stage_limit_values()
-    for travel, v, a, j in zip(limits.travel, limits.speed, limits.acceleration, limits.jerk, strict=True):
+    for travel, v, a, j in zip(
+        limits.travel, limits.speed, limits.acceleration, limits.jerk, strict=True
+    ):
         assert 0.5 * v * (v / a + a / j) < 0.5 * travel
 
 
@@ -72,7 +83,11 @@ def test_numbers_arrive() -> None:
     data["wheel"][1]["radius_m"] = 0.25
     platform = Platform.model_validate(data)
     limits = platform.wheel_limit_values()
-    assert (limits.speed, limits.acceleration, limits.jerk) == ((1.0, 2.0, 3.0), (4.0, 4.0, 4.0), (5.5, 5.5, 5.5))
+    assert (limits.speed, limits.acceleration, limits.jerk) == (
+        (1.0, 2.0, 3.0),
+        (4.0, 4.0, 4.0),
+        (5.5, 5.5, 5.5),
+    )
     stage = platform.stage_limit_values()
     assert (stage.travel, stage.speed) == ((1.0, 1.0, 0.75), (1.5, 1.5, 1.2))
     assert (stage.acceleration, stage.jerk) == ((6.0, 6.0, 5.0), (60.0, 60.0, 50.0))
@@ -109,8 +124,33 @@ def test_refused(table: str, key: str, bad: object, message: str) -> None:
         Platform.model_validate(data)
 
 
-BAD_NAMES = ["", "a/b", "../x", ".hidden", "a b", "x" * 101, "é" * 101, "日" * 67, 3, "a\x1b[2J", "a\nb", "a\0"]
-INVISIBLE = ["a\u202eb", "a\u200bb", "\u0301a", "a\u00adb", "a\ufeff", "½", "a\ue000", "😀", "a\u2028b", "a<b", "a\u0378"]
+BAD_NAMES = [
+    "",
+    "a/b",
+    "../x",
+    ".hidden",
+    "a b",
+    "x" * 101,
+    "é" * 101,
+    "日" * 67,
+    3,
+    "a\x1b[2J",
+    "a\nb",
+    "a\0",
+]
+INVISIBLE = [
+    "a\u202eb",
+    "a\u200bb",
+    "\u0301a",
+    "a\u00adb",
+    "a\ufeff",
+    "½",
+    "a\ue000",
+    "😀",
+    "a\u2028b",
+    "a<b",
+    "a\u0378",
+]
 
 
 @pytest.mark.parametrize("name", BAD_NAMES + INVISIBLE)
@@ -120,7 +160,10 @@ def test_names_that_are_no_file_names(name: object) -> None:
         Platform.model_validate(good() | {"name": name})
 
 
-@pytest.mark.parametrize("name", ["atlas-2.9m", "Größe", "платформа", "球体", "प्लेटफ़ॉर्म", "منصة", "x" * 100, "é" * 100])
+@pytest.mark.parametrize(
+    "name",
+    ["atlas-2.9m", "Größe", "платформа", "球体", "प्लेटफ़ॉर्म", "منصة", "x" * 100, "é" * 100],
+)
 def test_names_of_letters_of_any_alphabet(name: str) -> None:
     assert Platform.model_validate(good() | {"name": name}).name == normalize("NFC", name)
 
@@ -148,7 +191,12 @@ def test_a_preset_shows_every_key_there_is(name: str) -> None:
     """Whoever copies one finds what may be changed, the place of the rider's head with it."""
 
     def keys(table: dict[str, Any]) -> set[str]:
-        inner = {f"{key}.{deeper}" for key, value in table.items() if isinstance(value, dict) for deeper in keys(value)}
+        inner = {
+            f"{key}.{deeper}"
+            for key, value in table.items()
+            if isinstance(value, dict)
+            for deeper in keys(value)
+        }
         return {*table, *inner}
 
     written = tomllib.loads(presets()[name].read_text())

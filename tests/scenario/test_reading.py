@@ -29,7 +29,8 @@ DOTS = "." * 50
         ("x = {" + ".".join(["a"] * 100) + " = 1}", "a key has too many dots"),
         ("a = " + "[" * 5000, "nested too deeply"),
         ("a = " + "{b = " * 5000, "nested too deeply"),
-        ('a = ["""x"""", ' + "[" * 5000, "nested too deeply"),  # four quotes: the last is not the start of another string
+        # four quotes: the last is not the start of another string
+        ('a = ["""x"""", ' + "[" * 5000, "nested too deeply"),
         ("a = ['''x''''', " + "[" * 5000, "nested too deeply"),
         ('a = ["\\"", ' + "[" * 5000, "nested too deeply"),
         ("a = " + "1" * 5000, "not valid"),  # a ValueError that is no TOMLDecodeError
@@ -45,7 +46,14 @@ def test_refused(text: str, reason: str) -> None:
 
 @pytest.mark.parametrize(
     "value",
-    [f'"{BRACKETS}{DOTS}"', f"'{BRACKETS}{DOTS}'", f'"""\n"{BRACKETS}\n{DOTS}"""', f"'''\n'{BRACKETS}\n{DOTS}'''", '""', "''"],
+    [
+        f'"{BRACKETS}{DOTS}"',
+        f"'{BRACKETS}{DOTS}'",
+        f'"""\n"{BRACKETS}\n{DOTS}"""',
+        f"'''\n'{BRACKETS}\n{DOTS}'''",
+        '""',
+        "''",
+    ],
 )
 def test_strings_and_comments_may_hold_anything(value: str) -> None:
     text = f'# {BRACKETS} {DOTS} "\na = {value}  # {BRACKETS}\nb = "\\"{BRACKETS}"\nc = 1'
@@ -97,6 +105,8 @@ def test_a_byte_order_mark_is_taken_as_if_it_were_not_there(tmp_path: Path) -> N
 
 @pytest.mark.parametrize("encoding", ["utf-16", "utf-16-be", "utf-16-le"])
 def test_utf_16_is_named(tmp_path: Path, encoding: str) -> None:
-    (tmp_path / "f.toml").write_bytes(('name = "a"' if encoding == "utf-16" else '\ufeffname = "a"').encode(encoding))
+    (tmp_path / "f.toml").write_bytes(
+        ('name = "a"' if encoding == "utf-16" else '\ufeffname = "a"').encode(encoding)
+    )
     with pytest.raises(ScenarioError, match="is UTF-16 text, allowed: UTF-8; save it anew"):
         read_toml(tmp_path / "f.toml")

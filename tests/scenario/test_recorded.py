@@ -54,7 +54,9 @@ def test_every_state_as_it_was(path: Path) -> None:
         ("time_s", inf, "time is not finite"),
     ],
 )
-def test_what_is_not_believable_is_refused(path: Path, field: str, value: float, message: str) -> None:
+def test_what_is_not_believable_is_refused(
+    path: Path, field: str, value: float, message: str
+) -> None:
     log = spoilt(read_log(path), field, value)
     with pytest.raises(InputError, match=message):
         recorded_vehicle(log, Bounds())

@@ -29,7 +29,9 @@ def unpacked(scenario: Scenario, folder: Path) -> Scenario:
 
 @pytest.mark.parametrize("text", [SCRIPT, AIRCRAFT])
 def test_attachments_are_the_same_scenario(tmp_path: Path, text: str) -> None:
-    scenario = loaded(tmp_path, text, "platform.wheel_limits.speed_rad_s=20", "recording.skip=['/tf']")
+    scenario = loaded(
+        tmp_path, text, "platform.wheel_limits.speed_rad_s=20", "recording.skip=['/tf']"
+    )
     again = unpacked(scenario, tmp_path / "again")
     assert again.flight == scenario.flight
     assert again.platform == scenario.platform
@@ -43,7 +45,12 @@ def test_a_users_script_goes_along(tmp_path: Path) -> None:
     (tmp_path / "mine" / "glide.xml").write_text(USER_SCRIPT.format(initial="start"))
     (tmp_path / "mine" / "start.xml").write_text(INITIAL)
     scenario = loaded(tmp_path, SCRIPT.replace("c1722", "mine/glide.xml"))
-    assert set(scenario.attachments()) == {"scenario.toml", "platform.toml", "glide.xml", "start.xml"}
+    assert set(scenario.attachments()) == {
+        "scenario.toml",
+        "platform.toml",
+        "glide.xml",
+        "start.xml",
+    }
     again = unpacked(scenario, tmp_path / "again")
     assert again.attachments() == scenario.attachments()
     assert again.file.vehicle.user_script(again.folder) == tmp_path / "again" / "glide.xml"
@@ -77,9 +84,16 @@ def test_defaults_are_written_out(tmp_path: Path) -> None:
 
 
 @given(st.floats(1.0, 1e6, allow_subnormal=False), st.floats(1e-9, 10.0))
-def test_numbers_survive_to_the_last_bit(tmp_path_factory: pytest.TempPathFactory, speed: float, gain: float) -> None:
+def test_numbers_survive_to_the_last_bit(
+    tmp_path_factory: pytest.TempPathFactory, speed: float, gain: float
+) -> None:
     folder = tmp_path_factory.mktemp("bits")
-    scenario = loaded(folder, SCRIPT, f"platform.wheel_limits.speed_rad_s={speed!r}", f"cueing.force_gain={gain!r}")
+    scenario = loaded(
+        folder,
+        SCRIPT,
+        f"platform.wheel_limits.speed_rad_s={speed!r}",
+        f"cueing.force_gain={gain!r}",
+    )
     again = unpacked(scenario, folder / "again")
     assert again.platform.wheel_limit_values().speed == (speed,) * 3
     assert again.file.cueing.force_gain == (gain,) * 3
@@ -96,4 +110,6 @@ def test_only_dispensable_topics_can_be_left_out(refused: Refused) -> None:
     assert refused(SCRIPT + '[recording]\nskip = ["/motion"]') == [
         "bad.toml: recording.skip.0 = '/motion': allowed: /tf; a run is evaluated from the others"
     ]
-    assert refused(SCRIPT + '[recording]\nskip = "/tf"') == ["bad.toml: recording.skip = '/tf': allowed: a list of topics"]
+    assert refused(SCRIPT + '[recording]\nskip = "/tf"') == [
+        "bad.toml: recording.skip = '/tf': allowed: a list of topics"
+    ]

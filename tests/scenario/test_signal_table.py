@@ -25,7 +25,9 @@ def test_signals_in_si(tmp_path: Path) -> None:
     step = Signal("force_y", "step", -2.0, 0.0, 1.0)
     assert load(tmp_path, SIGNALS) == SignalFlight((sweep, step), 50.0, None, False)
     plain = SIGNALS.replace("rate_hz = 50\n", "").replace("force_follows_attitude = false\n", "")
-    assert load(tmp_path, f"duration_s = 9\n{plain}") == SignalFlight((sweep, step), None, 9.0, True)
+    assert load(tmp_path, f"duration_s = 9\n{plain}") == SignalFlight(
+        (sweep, step), None, 9.0, True
+    )
 
 
 def test_signals_fly_and_their_log_flies_again(tmp_path: Path) -> None:
@@ -57,8 +59,16 @@ def test_other_sources_attach_no_keys_of_signals(tmp_path: Path) -> None:
             SIGNALS.replace('"signal"', '"jsbsim"').replace("[[", 'script = "c1722"\n[[', 1),
             ["signal", "force_follows_attitude"],
         ),
-        (SIGNALS.replace("[[", 'script = "c1722"\naircraft = "f16"\n[[', 1), ["script", "aircraft"]),
-        (SIGNALS.replace("[platform]", "[[vehicle.input]]\ntime_s = 1\nproperty = 'a'\nvalue = 1\n[platform]"), ["input"]),
+        (
+            SIGNALS.replace("[[", 'script = "c1722"\naircraft = "f16"\n[[', 1),
+            ["script", "aircraft"],
+        ),
+        (
+            SIGNALS.replace(
+                "[platform]", "[[vehicle.input]]\ntime_s = 1\nproperty = 'a'\nvalue = 1\n[platform]"
+            ),
+            ["input"],
+        ),
     ],
     ids=["not signals", "jsbsim", "inputs"],
 )
@@ -84,33 +94,53 @@ def test_no_signal_at_all(refused: Refused) -> None:
         (
             '"roll_rate"',
             '"roll"',
-            "axis = 'roll': allowed: 'roll_rate', 'pitch_rate', 'yaw_rate', 'force_x', 'force_y', 'force_z'",
+            (
+                "axis = 'roll': allowed: 'roll_rate', 'pitch_rate', 'yaw_rate', 'force_x',"
+                " 'force_y', 'force_z'"
+            ),
         ),
         ('"sweep"', '"square"', "shape = 'square': allowed: 'sine', 'sweep', 'step', 'doublet'"),
         ('"sweep"', '"sine"', "end_frequency_rad_s: not with shape = 'sine'"),
         ("frequency_rad_s = 0.5\n", "", "frequency_rad_s: missing, needed with shape = 'sweep'"),
         ("amplitude_deg_s = 90\n", "", "amplitude_deg_s: missing, needed with axis = 'roll_rate'"),
-        ("amplitude_deg_s = 90", "amplitude_deg_s = 2501", "amplitude_deg_s = 2501: allowed: a number, -2500 <= value <= 2500"),
-        ("amplitude_deg_s = 90", "amplitude_deg_s = nan", "amplitude_deg_s = nan: allowed: a number, -2500 <= value <= 2500"),
-        ("rad_s = 0.5", "rad_s = 0", "frequency_rad_s = 0: allowed: a number, 0.001 <= value <= 1000"),
+        (
+            "amplitude_deg_s = 90",
+            "amplitude_deg_s = 2501",
+            "amplitude_deg_s = 2501: allowed: a number, -2500 <= value <= 2500",
+        ),
+        (
+            "amplitude_deg_s = 90",
+            "amplitude_deg_s = nan",
+            "amplitude_deg_s = nan: allowed: a number, -2500 <= value <= 2500",
+        ),
+        (
+            "rad_s = 0.5",
+            "rad_s = 0",
+            "frequency_rad_s = 0: allowed: a number, 0.001 <= value <= 1000",
+        ),
         ("duration_s = 2.0\n", "", "duration_s: missing"),
         ("ramp_s = 0.5", "ramp_s = 0", "ramp_s = 0: allowed: a number, 0 < value <= 86400"),
         (
             "ramp_s = 0.5",
             "ramp = 0.5",
-            "ramp = 0.5: unknown key; did you mean 'ramp_s'? allowed: amplitude_deg_s, amplitude_m_s2, axis, ",
+            (
+                "ramp = 0.5: unknown key; did you mean 'ramp_s'? allowed: amplitude_deg_s,"
+                " amplitude_m_s2, axis, "
+            ),
         ),
     ],
 )
-def test_each_key_of_a_signal_is_checked(refused: Refused, old: str, new: str, mistake: str) -> None:
+def test_each_key_of_a_signal_is_checked(
+    refused: Refused, old: str, new: str, mistake: str
+) -> None:
     (told,) = refused(SIGNALS.replace(old, new, 1))
     assert told.startswith(f"bad.toml: vehicle.signal.0.{mistake}")
 
 
 def test_ramps_must_fit(refused: Refused) -> None:
     assert refused(SIGNALS.replace("ramp_s = 0.5", "ramp_s = 1.5")) == [
-        "bad.toml: vehicle.signal.0: signal on roll_rate: the ramps of a sweep of 2 s must fit into it: ramp = 1.5 s, "
-        "allowed: 0 < ramp <= 1"
+        "bad.toml: vehicle.signal.0: signal on roll_rate: the ramps of a sweep of 2 s must fit into"
+        " it: ramp = 1.5 s, allowed: 0 < ramp <= 1"
     ]
 
 
@@ -121,7 +151,9 @@ def test_all_mistakes_of_all_signals_at_once(refused: Refused) -> None:
         .replace("duration_s = 1.0", "duration_s = -1.0")
         .replace("follows_attitude = false", "follows_attitude = 0")
     )
-    assert [line.removeprefix("bad.toml: vehicle.").split(" ")[0].rstrip(":") for line in refused(wrong)] == [
+    assert [
+        line.removeprefix("bad.toml: vehicle.").split(" ")[0].rstrip(":") for line in refused(wrong)
+    ] == [
         "force_follows_attitude",
         "signal.0.axis",
         "signal.1.duration_s",

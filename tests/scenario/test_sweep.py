@@ -18,7 +18,9 @@ def variants(folder: Path, sweep: str, *overrides: str, text: str = SCRIPT) -> l
     return load_variants(path, overrides)
 
 
-def settings(folder: Path, sweep: str, *overrides: str, text: str = SCRIPT) -> list[dict[str, object]]:
+def settings(
+    folder: Path, sweep: str, *overrides: str, text: str = SCRIPT
+) -> list[dict[str, object]]:
     return [variant.settings for variant in variants(folder, sweep, *overrides, text=text)]
 
 
@@ -32,16 +34,23 @@ def test_a_file_without_a_sweep_is_one_run(tmp_path: Path) -> None:
     (tmp_path / "s.toml").write_text(SCRIPT)
     (only,) = load_variants(tmp_path / "s.toml", ["cueing.method=force"])
     assert only.settings == {}
-    assert only.scenario.attachments() == load_scenario(tmp_path / "s.toml", ["cueing.method=force"]).attachments()
+    assert (
+        only.scenario.attachments()
+        == load_scenario(tmp_path / "s.toml", ["cueing.method=force"]).attachments()
+    )
 
 
 def test_a_grid_has_every_combination_in_the_order_of_the_file(tmp_path: Path) -> None:
-    found = variants(tmp_path, 'cueing.method = ["force", "blend"]\ncueing.force_gain = [1, 0.5, [1, 0, 1]]')
+    found = variants(
+        tmp_path, 'cueing.method = ["force", "blend"]\ncueing.force_gain = [1, 0.5, [1, 0, 1]]'
+    )
     assert [tuple(variant.settings.values()) for variant in found] == [
         *(("force", 1), ("force", 0.5), ("force", [1, 0, 1])),
         *(("blend", 1), ("blend", 0.5), ("blend", [1, 0, 1])),
     ]
-    assert [variant.scenario.file.cueing.method for variant in found] == ["force"] * 3 + ["blend"] * 3
+    assert [variant.scenario.file.cueing.method for variant in found] == ["force"] * 3 + [
+        "blend"
+    ] * 3
     assert found[5].scenario.file.cueing.force_gain == (1.0, 0.0, 1.0)
     assert set(found[0].settings) == {"cueing.method", "cueing.force_gain"}
 
@@ -51,7 +60,10 @@ def test_a_run_of_a_sweep_is_the_scenario_with_its_settings(tmp_path: Path) -> N
     second = variants(tmp_path, "platform.wheel_limits.speed_rad_s = [31, 20]")[1].scenario
     (tmp_path / "plain.toml").write_text(SCRIPT)
     assert (
-        second.attachments() == load_scenario(tmp_path / "plain.toml", ["platform.wheel_limits.speed_rad_s=20"]).attachments()
+        second.attachments()
+        == load_scenario(
+            tmp_path / "plain.toml", ["platform.wheel_limits.speed_rad_s=20"]
+        ).attachments()
     )
     assert "sweep" not in second.scenario_toml()
 
@@ -63,12 +75,18 @@ def test_items_of_lists_are_swept_by_number(tmp_path: Path) -> None:
 
 
 def test_patterns_are_names_known_here_and_now(tmp_path: Path) -> None:
-    assert {run["vehicle.script"] for run in settings(tmp_path, 'vehicle.script = "*"')} == set(own_scripts())
-    assert [run["platform.preset"] for run in settings(tmp_path, 'platform.preset = "atlas-?.?m"')] == [
+    assert {run["vehicle.script"] for run in settings(tmp_path, 'vehicle.script = "*"')} == set(
+        own_scripts()
+    )
+    assert [
+        run["platform.preset"] for run in settings(tmp_path, 'platform.preset = "atlas-?.?m"')
+    ] == [
         "atlas-1.5m",
         "atlas-2.9m",
     ]
-    assert {run["cueing.method"] for run in settings(tmp_path, 'cueing.method = "*"')} == set(METHODS)
+    assert {run["cueing.method"] for run in settings(tmp_path, 'cueing.method = "*"')} == set(
+        METHODS
+    )
     found = settings(tmp_path, 'vehicle.aircraft = "c172*"', text=AIRCRAFT)
     assert {run["vehicle.aircraft"] for run in found} == {"c172p", "c172r", "c172x"}
 
@@ -82,13 +100,23 @@ def test_draws_lie_in_their_range_and_come_again(tmp_path: Path) -> None:
     assert all(isinstance(rate, float) and 1.0 <= rate <= 9.0 for rate in drawn)
     assert min(map(float, map(str, drawn))) < 2.0 < 8.0 < max(map(float, map(str, drawn)))
     assert [run["cueing.align_rate_deg_s"] for run in settings(tmp_path, DRAWS)] == drawn
-    assert [run["cueing.align_rate_deg_s"] for run in settings(tmp_path, DRAWS.replace("seed = 3", "seed = 4"))] != drawn
-    assert [run["cueing.align_rate_deg_s"] for run in settings(tmp_path, DRAWS, "sweep.draws=7")] == drawn[:7]
+    assert [
+        run["cueing.align_rate_deg_s"]
+        for run in settings(tmp_path, DRAWS.replace("seed = 3", "seed = 4"))
+    ] != drawn
+    assert [
+        run["cueing.align_rate_deg_s"] for run in settings(tmp_path, DRAWS, "sweep.draws=7")
+    ] == drawn[:7]
 
 
-def test_every_point_of_the_grid_gets_the_same_draws_and_other_ranges_change_nothing(tmp_path: Path) -> None:
+def test_every_point_of_the_grid_gets_the_same_draws_and_other_ranges_change_nothing(
+    tmp_path: Path,
+) -> None:
     alone = [run["cueing.align_rate_deg_s"] for run in settings(tmp_path, DRAWS)]
-    more = 'cueing.method = ["blend", "force"]\ncueing.align_time_s = { low = 0.1, high = 10.0, log = true }\n'
+    more = (
+        'cueing.method = ["blend", "force"]\ncueing.align_time_s = { low = 0.1, high = 10.0, log ='
+        " true }\n"
+    )
     both = settings(tmp_path, more + DRAWS)
     assert len(both) == 100
     for method, half in (("blend", both[:50]), ("force", both[50:])):
@@ -107,10 +135,15 @@ def test_two_ranges_are_drawn_independently(tmp_path: Path) -> None:
 def test_set_takes_a_key_out_of_the_sweep(tmp_path: Path) -> None:
     sweep = 'vehicle.script = "*"\ncueing.method = ["blend", "attitude"]'
     found = variants(tmp_path, sweep, "vehicle.script=ball")
-    assert [variant.settings for variant in found] == [{"cueing.method": "blend"}, {"cueing.method": "attitude"}]
+    assert [variant.settings for variant in found] == [
+        {"cueing.method": "blend"},
+        {"cueing.method": "attitude"},
+    ]
     assert {variant.scenario.file.vehicle.script for variant in found} == {"ball"}
     assert len(settings(tmp_path, sweep, "vehicle.script=ball", "cueing.method=force")) == 1
-    assert settings(tmp_path, sweep, "vehicle.script=ball", 'sweep.cueing.method=["force"]') == [{"cueing.method": "force"}]
+    assert settings(tmp_path, sweep, "vehicle.script=ball", 'sweep.cueing.method=["force"]') == [
+        {"cueing.method": "force"}
+    ]
 
 
 @pytest.mark.parametrize(
@@ -118,9 +151,15 @@ def test_set_takes_a_key_out_of_the_sweep(tmp_path: Path) -> None:
     [
         ("", "s.toml: sweep: nothing to sweep; allowed: a list of values"),
         ("cueing.force_gain = 3", "s.toml: sweep.cueing.force_gain = 3: allowed: a list of values"),
-        ("cueing.force_gain = []", "s.toml: sweep.cueing.force_gain = []: allowed: a list of values"),
+        (
+            "cueing.force_gain = []",
+            "s.toml: sweep.cueing.force_gain = []: allowed: a list of values",
+        ),
         ('vehicle.script = "z*"', "s.toml: sweep.vehicle.script = 'z*': no such name; allowed: "),
-        ('vehicle.script = "c172"', "s.toml: sweep.vehicle.script = 'c172': no such name; did you mean 'c17"),
+        (
+            'vehicle.script = "c172"',
+            "s.toml: sweep.vehicle.script = 'c172': no such name; did you mean 'c17",
+        ),
         ('name = "*"', "s.toml: sweep.name = '*': allowed: a list of values"),
         (
             "draws = 0\nduration_s = { low = 1, high = 2 }",
@@ -129,19 +168,46 @@ def test_set_takes_a_key_out_of_the_sweep(tmp_path: Path) -> None:
         ("seed = 0.5\nduration_s = [1, 2]", "s.toml: sweep.seed = 0.5: allowed: a whole number"),
         ("draws = 3\nduration_s = [1, 2]", "s.toml: sweep: ranges and draws go together"),
         ("duration_s = { low = 1, high = 2 }", "s.toml: sweep: ranges and draws go together"),
-        ("draws = 3\nduration_s = { low = 2, high = 1 }", "s.toml: sweep.duration_s: allowed: { low = a number"),
-        ("draws = 3\nduration_s = { low = 0, high = 1, log = true }", "s.toml: sweep.duration_s: allowed: { low = a number"),
-        ("draws = 3\nduration_s = { low = 0 }", "s.toml: sweep.duration_s: allowed: { low = a number"),
-        ("draws = 3\nduration_s = { low = 0, high = inf }", "s.toml: sweep.duration_s: allowed: { low = a number"),
-        ("draws = 3\nduration_s = { low = 0, high = 1, step = 2 }", "s.toml: sweep.duration_s: allowed: { low = a number"),
-        ("draws = 10000\nduration_s = { low = 1, high = 2 }\nname = ['a', 'b']", "s.toml: sweep: 20000 runs, allowed: "),
-        ("duration_s = [0.1, -1]", "s.toml: sweep.duration_s = -1: allowed: a number, 0 < value <= 86400"),
-        ("cueing.rotation_gain = [[1, 1, -1]]", "s.toml: sweep.cueing.rotation_gain.2 = -1: allowed: a number"),
+        (
+            "draws = 3\nduration_s = { low = 2, high = 1 }",
+            "s.toml: sweep.duration_s: allowed: { low = a number",
+        ),
+        (
+            "draws = 3\nduration_s = { low = 0, high = 1, log = true }",
+            "s.toml: sweep.duration_s: allowed: { low = a number",
+        ),
+        (
+            "draws = 3\nduration_s = { low = 0 }",
+            "s.toml: sweep.duration_s: allowed: { low = a number",
+        ),
+        (
+            "draws = 3\nduration_s = { low = 0, high = inf }",
+            "s.toml: sweep.duration_s: allowed: { low = a number",
+        ),
+        (
+            "draws = 3\nduration_s = { low = 0, high = 1, step = 2 }",
+            "s.toml: sweep.duration_s: allowed: { low = a number",
+        ),
+        (
+            "draws = 10000\nduration_s = { low = 1, high = 2 }\nname = ['a', 'b']",
+            "s.toml: sweep: 20000 runs, allowed: ",
+        ),
+        (
+            "duration_s = [0.1, -1]",
+            "s.toml: sweep.duration_s = -1: allowed: a number, 0 < value <= 86400",
+        ),
+        (
+            "cueing.rotation_gain = [[1, 1, -1]]",
+            "s.toml: sweep.cueing.rotation_gain.2 = -1: allowed: a number",
+        ),
         (
             "platform.wheel_limits.speed_rad_s = [1, 0]",
             "s.toml: sweep.platform.wheel_limits.speed_rad_s = 0: allowed: a number",
         ),
-        ("cueing.align_rte_deg_s = [1]", "s.toml: sweep.cueing.align_rte_deg_s = 1: unknown key; did you mean 'align_rate_"),
+        (
+            "cueing.align_rte_deg_s = [1]",
+            "s.toml: sweep.cueing.align_rte_deg_s = 1: unknown key; did you mean 'align_rate_",
+        ),
     ],
 )
 def test_a_mistake_says_where_and_what_is_allowed(tmp_path: Path, sweep: str, said: str) -> None:
@@ -159,16 +225,22 @@ def test_a_sweep_that_is_no_table(tmp_path: Path) -> None:
 
 
 def test_a_mistake_of_the_file_is_said_once_and_not_for_every_run(tmp_path: Path) -> None:
-    lines = mistakes(tmp_path, 'cueing.method = "*"\nduration_s = [1, 2]', text=SCRIPT.replace("name", "nam"))
+    lines = mistakes(
+        tmp_path, 'cueing.method = "*"\nduration_s = [1, 2]', text=SCRIPT.replace("name", "nam")
+    )
     assert [line.split(": ")[1] for line in lines] == ["nam = 'short'", "name"]
 
 
 def test_runs_that_differ_in_their_platform_have_one_scenario(tmp_path: Path) -> None:
     """Which is checked once, and not for every run."""
-    runs = variants(tmp_path, "draws = 3\nplatform.wheel_limits.speed_rad_s = { low = 10.0, high = 20.0 }")
+    runs = variants(
+        tmp_path, "draws = 3\nplatform.wheel_limits.speed_rad_s = { low = 10.0, high = 20.0 }"
+    )
     assert len({id(run.scenario.file) for run in runs}) == 1
     assert len({run.scenario.platform.wheel_limits.speed_rad_s for run in runs}) == 3
-    runs = variants(tmp_path, 'cueing.method = ["blend", "force"]\nplatform.wheel_limits.speed_rad_s = [10, 20]')
+    runs = variants(
+        tmp_path, 'cueing.method = ["blend", "force"]\nplatform.wheel_limits.speed_rad_s = [10, 20]'
+    )
     assert [run.scenario.file.cueing.method for run in runs] == ["blend", "blend", "force", "force"]
 
 
@@ -184,7 +256,9 @@ def test_a_thousand_wrong_runs_are_cut_short(tmp_path: Path) -> None:
 
 def test_run_refuses_a_sweep(tmp_path: Path) -> None:
     (tmp_path / "s.toml").write_text(f"{SCRIPT}\n[sweep]\nduration_s = [1, 2]")
-    with pytest.raises(ScenarioError, match=r"s\.toml: sweep: a sweep stands for many runs; .* atlas-cueing batch"):
+    with pytest.raises(
+        ScenarioError, match=r"s\.toml: sweep: a sweep stands for many runs; .* atlas-cueing batch"
+    ):
         load_scenario(tmp_path / "s.toml")
 
 

@@ -50,7 +50,9 @@ def test_bounds_are_allowed(value: float) -> None:
     assert type(kept) is float
 
 
-@pytest.mark.parametrize("bad", [-1.001, 2.001, float("nan"), float("inf"), HUGE, -HUGE, True, "1", None, [1.0], {}])
+@pytest.mark.parametrize(
+    "bad", [-1.001, 2.001, float("nan"), float("inf"), HUGE, -HUGE, True, "1", None, [1.0], {}]
+)
 def test_a_number_says_its_bounds(bad: object) -> None:
     assert message(closed=bad) == "a number, -1 <= value <= 2"
 

@@ -1,4 +1,7 @@
-"""A script that is not JSBSim's own flies only when its user says so; reading and cueing anew need no trust."""
+"""A script that is not JSBSim's own flies only when its user says so.
+
+Reading and cueing anew need no trust.
+"""
 
 from pathlib import Path
 
@@ -24,14 +27,20 @@ def users(tmp_path: Path) -> Path:
 def test_it_does_not_fly_without_trust(users: Path) -> None:
     scenario = load_scenario(users)
     for flight in ("flight", "live_flight"):
-        with pytest.raises(InputError, match=r"mine\.xml: this script is not one of JSBSim's own.*--trust-models") as refusal:
+        with pytest.raises(
+            InputError, match=r"mine\.xml: this script is not one of JSBSim's own.*--trust-models"
+        ) as refusal:
             getattr(scenario, flight)
         assert "\n" not in str(refusal.value)
 
 
 def test_it_flies_with_trust(users: Path) -> None:
     trusted = load_scenario(users, trust_models=True)
-    assert trusted.flight == trusted.live_flight == ScriptFlight(users.parent / "mine.xml", None, 0.5, users.parent)
+    assert (
+        trusted.flight
+        == trusted.live_flight
+        == ScriptFlight(users.parent / "mine.xml", None, 0.5, users.parent)
+    )
 
 
 def test_all_but_the_flight_can_be_had_without_trust(users: Path) -> None:
@@ -43,13 +52,18 @@ def test_all_but_the_flight_can_be_had_without_trust(users: Path) -> None:
 @pytest.mark.parametrize("text", [SCRIPT, AIRCRAFT, SIGNALS])
 def test_nothing_else_needs_trust(tmp_path: Path, text: str) -> None:
     (tmp_path / "s.toml").write_text(text)
-    assert load_scenario(tmp_path / "s.toml").flight == load_scenario(tmp_path / "s.toml", trust_models=True).flight
+    assert (
+        load_scenario(tmp_path / "s.toml").flight
+        == load_scenario(tmp_path / "s.toml", trust_models=True).flight
+    )
 
 
 def test_every_run_of_a_sweep_is_trusted_or_none(users: Path) -> None:
     users.write_text(USERS + '[sweep]\ncueing.method = ["blend", "force"]')
     assert [variant.scenario.trust_models for variant in load_variants(users)] == [False, False]
-    assert [variant.scenario.trust_models for variant in load_variants(users, trust_models=True)] == [True, True]
+    assert [
+        variant.scenario.trust_models for variant in load_variants(users, trust_models=True)
+    ] == [True, True]
 
 
 def test_a_huge_script_does_not_fill_the_memory(users: Path) -> None:

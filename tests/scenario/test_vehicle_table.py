@@ -68,13 +68,17 @@ def test_script_beside_the_scenario(tmp_path: Path) -> None:
     (tmp_path / "scripts").mkdir()
     script = tmp_path / "scripts" / "mine.xml"
     script.write_text(USER_SCRIPT.format(initial="reset00"))
-    assert load(tmp_path, SCRIPT.replace("c1722", "scripts/mine.xml")) == ScriptFlight(script, None, 0.5, tmp_path)
+    assert load(tmp_path, SCRIPT.replace("c1722", "scripts/mine.xml")) == ScriptFlight(
+        script, None, 0.5, tmp_path
+    )
 
 
 def test_own_name_wins_over_a_file(tmp_path: Path) -> None:
     (tmp_path / "c1722").write_text(USER_SCRIPT)
     assert load(tmp_path, SCRIPT) == ScriptFlight(own_scripts()["c1722"], None, 0.5)
-    assert load(tmp_path, SCRIPT.replace("c1722", "./c1722")) == ScriptFlight(tmp_path / "c1722", None, 0.5, tmp_path)
+    assert load(tmp_path, SCRIPT.replace("c1722", "./c1722")) == ScriptFlight(
+        tmp_path / "c1722", None, 0.5, tmp_path
+    )
 
 
 def test_a_script_outside_the_folder_is_refused(tmp_path: Path, refused: Refused) -> None:
@@ -86,7 +90,17 @@ def test_a_script_outside_the_folder_is_refused(tmp_path: Path, refused: Refused
     (inside / "round.xml").symlink_to(inside / "round.xml")
     (inside / "good.xml").write_text(INITIAL)
     assert within(inside, "good.xml") == inside / "good.xml"
-    for name in ("../outside.xml", str(outside), "link.xml", "round.xml", "", ".", "missing.xml", "a\0b", "x" * 5000):
+    for name in (
+        "../outside.xml",
+        str(outside),
+        "link.xml",
+        "round.xml",
+        "",
+        ".",
+        "missing.xml",
+        "a\0b",
+        "x" * 5000,
+    ):
         assert within(inside, name) is None
     assert "in the scenario's folder" in refused(SCRIPT.replace("c1722", "../x.xml"))[0]
 
@@ -95,34 +109,52 @@ def test_a_script_outside_the_folder_is_refused(tmp_path: Path, refused: Refused
 def test_an_aircraft_named_by_a_number_needs_no_quotes(tmp_path: Path, where: str) -> None:
     in_file = AIRCRAFT.replace('"c172x"', "737") if where == "file" else AIRCRAFT
     sweep = "[sweep]\nvehicle.aircraft = [737]" if where == "sweep" else ""
-    (tmp_path / "s.toml").write_text(in_file.split("[[")[0] + '[platform]\npreset = "atlas-1.5m"\n' + sweep)
-    (variant,) = load_variants(tmp_path / "s.toml", ["vehicle.aircraft=737"] if where == "--set" else [])
+    (tmp_path / "s.toml").write_text(
+        in_file.split("[[")[0] + '[platform]\npreset = "atlas-1.5m"\n' + sweep
+    )
+    (variant,) = load_variants(
+        tmp_path / "s.toml", ["vehicle.aircraft=737"] if where == "--set" else []
+    )
     assert variant.scenario.file.vehicle.aircraft == "737"
     assert 'aircraft = "737"' in variant.scenario.scenario_toml()
 
 
 @pytest.mark.parametrize("bad", ["738", "true", "737.0", "[737]", "-737"])
 def test_a_number_that_names_no_aircraft_is_refused(refused: Refused, bad: str) -> None:
-    (line,) = refused(AIRCRAFT.split("[[")[0] + '[platform]\npreset = "atlas-1.5m"', f"vehicle.aircraft={bad}")
-    assert line.startswith(f"--set: vehicle.aircraft = {bad}: allowed: one of JSBSim's own aircraft, or one in aircraft/NAME")
+    (line,) = refused(
+        AIRCRAFT.split("[[")[0] + '[platform]\npreset = "atlas-1.5m"', f"vehicle.aircraft={bad}"
+    )
+    assert line.startswith(
+        f"--set: vehicle.aircraft = {bad}: allowed: one of JSBSim's own aircraft, or one in"
+        " aircraft/NAME"
+    )
 
 
 def test_properties_that_cannot_be_set_are_told_with_all_other_mistakes(refused: Refused) -> None:
-    text = AIRCRAFT.replace("altitude_m = 1200", "altitude_m = nan").replace("fcs/elevator-cmd-norm", "fcs/elevatr-cmd-norm")
+    text = AIRCRAFT.replace("altitude_m = 1200", "altitude_m = nan").replace(
+        "fcs/elevator-cmd-norm", "fcs/elevatr-cmd-norm"
+    )
     lines = refused(text, "vehicle.input.1.property=velocities/p-rad_sec")
     assert lines == [
         "bad.toml: vehicle.initial.altitude_m = nan: allowed: a number, -500 <= value <= 1e+07",
-        "bad.toml: vehicle.input.0.property = 'fcs/elevatr-cmd-norm': "
-        "unknown JSBSim property 'fcs/elevatr-cmd-norm'; did you mean 'fcs/elevator-cmd-norm'?",
-        "--set: vehicle.input.1.property = 'velocities/p-rad_sec': "
-        "JSBSim property 'velocities/p-rad_sec' can be read but not set",
+        (
+            "bad.toml: vehicle.input.0.property = 'fcs/elevatr-cmd-norm': "
+            "unknown JSBSim property 'fcs/elevatr-cmd-norm'; did you mean 'fcs/elevator-cmd-norm'?"
+        ),
+        (
+            "--set: vehicle.input.1.property = 'velocities/p-rad_sec': "
+            "JSBSim property 'velocities/p-rad_sec' can be read but not set"
+        ),
     ]
 
 
 @pytest.mark.parametrize(
     ("name", "why"),
     [
-        ("atmosphere/updownburst/number-of-cells", "must not be set: it takes memory and time without bound"),
+        (
+            "atmosphere/updownburst/number-of-cells",
+            "must not be set: it takes memory and time without bound",
+        ),
         ("simulation/write-state-file", "must not be set: it writes a file"),
         ("simulation/dt", "can be read but not set"),
     ],
@@ -140,9 +172,12 @@ def test_an_aircraft_that_does_not_load_is_a_mistake_of_its_key(refused: Refused
 
 def test_every_aircraft_of_a_sweep_is_asked_for_the_inputs(tmp_path: Path) -> None:
     (tmp_path / "s.toml").write_text(
-        AIRCRAFT.replace("fcs/aileron-cmd-norm", "ap/attitude_hold") + '[sweep]\nvehicle.aircraft = ["c172x", "ball"]'
+        AIRCRAFT.replace("fcs/aileron-cmd-norm", "ap/attitude_hold")
+        + '[sweep]\nvehicle.aircraft = ["c172x", "ball"]'
     )
-    with pytest.raises(ScenarioError, match=r"unknown JSBSim property 'ap/attitude_hold'") as caught:
+    with pytest.raises(
+        ScenarioError, match=r"unknown JSBSim property 'ap/attitude_hold'"
+    ) as caught:
         load_variants(tmp_path / "s.toml")
     assert [mistake.key for mistake in caught.value.mistakes] == ["vehicle.input.1.property"]
     assert load_variants(tmp_path / "s.toml", ["vehicle.aircraft=c172x"])
@@ -151,7 +186,9 @@ def test_every_aircraft_of_a_sweep_is_asked_for_the_inputs(tmp_path: Path) -> No
 @pytest.mark.parametrize("source", ['"flightger"', '"FlightGear"', "3", "[]", '""'])
 def test_a_wrong_source_is_told_alone(refused: Refused, source: str) -> None:
     """What does not go with another source follows from it, and is no mistake."""
-    (line,) = refused(FLIGHTGEAR.replace('"flightgear"', f"{source}\nport = 5501\nlog = 'x'\nscript = 'c1722'"))
+    (line,) = refused(
+        FLIGHTGEAR.replace('"flightgear"', f"{source}\nport = 5501\nlog = 'x'\nscript = 'c1722'")
+    )
     assert line.startswith("bad.toml: vehicle.source = ")
 
 
@@ -164,10 +201,16 @@ def test_near_names_are_given(refused: Refused) -> None:
     ("text", "mistakes"),
     [
         (SCRIPT.replace('script = "c1722"', ""), ["vehicle: exactly one of script and aircraft"]),
-        (AIRCRAFT.replace("[vehicle]", '[vehicle]\nscript = "c1722"'), ["vehicle: exactly one of script and aircraft"]),
+        (
+            AIRCRAFT.replace("[vehicle]", '[vehicle]\nscript = "c1722"'),
+            ["vehicle: exactly one of script and aircraft"],
+        ),
         (
             AIRCRAFT.replace('aircraft = "c172x"', 'script = "c1722"'),
-            ["vehicle.initial: not with script, which has its own", "vehicle.input: not with script, which has its own"],
+            [
+                "vehicle.initial: not with script, which has its own",
+                "vehicle.input: not with script, which has its own",
+            ],
         ),
         (
             'name = "x"\n[platform]\npreset = "atlas-2.9m"\n[vehicle]\naircraft = "f16"',
@@ -181,7 +224,8 @@ def test_near_names_are_given(refused: Refused) -> None:
             ["vehicle.source = 'xplane': allowed: 'jsbsim', 'signal', 'flightgear', 'recording'"],
         ),
         (
-            AIRCRAFT.replace("[[vehicle.input]]", "[vehicle.input]", 1).split("[[")[0] + '[platform]\npreset = "atlas-1.5m"',
+            AIRCRAFT.replace("[[vehicle.input]]", "[vehicle.input]", 1).split("[[")[0]
+            + '[platform]\npreset = "atlas-1.5m"',
             ["vehicle.input: allowed: tables, written [[vehicle.input]]"],
         ),
         (
@@ -208,10 +252,18 @@ def test_refused(refused: Refused, text: str, mistakes: list[str]) -> None:
             "airspeed_m_s = -1",
             "vehicle.initial.airspeed_m_s = -1: allowed: a number, 0 <= value <= 20000",
         ),
-        ("pitch_deg = 2.5", "pitch_deg = 91", "vehicle.initial.pitch_deg = 91: allowed: a number, -90 <= value <= 90"),
+        (
+            "pitch_deg = 2.5",
+            "pitch_deg = 91",
+            "vehicle.initial.pitch_deg = 91: allowed: a number, -90 <= value <= 90",
+        ),
         ("trim = false", 'trim = "no"', "vehicle.initial.trim = 'no': allowed: true or false"),
         ("airspeed_m_s = 50.0", "", "vehicle.initial.airspeed_m_s: missing"),
-        ("ramp_s = 0.25", "ramp_s = -1", "vehicle.input.1.ramp_s = -1: allowed: a number, 0 <= value <= 86400"),
+        (
+            "ramp_s = 0.25",
+            "ramp_s = -1",
+            "vehicle.input.1.ramp_s = -1: allowed: a number, 0 <= value <= 86400",
+        ),
         ("value = -0.2", "value = inf", "vehicle.input.0.value = inf: allowed: a finite number"),
         ('property = "fcs/aileron-cmd-norm"', "", "vehicle.input.1.property: missing"),
     ],
@@ -256,7 +308,9 @@ def test_what_flies_in_batch_runs_flies_live_too(tmp_path: Path) -> None:
 def test_what_flies_only_live_is_refused_by_a_batch_run(tmp_path: Path, text: str) -> None:
     (tmp_path / "s.toml").write_text(text)
     scenario = load_scenario(tmp_path / "s.toml")
-    with pytest.raises(InputError, match=r"^source = '\w+' flies only live: atlas-cueing live FILE"):
+    with pytest.raises(
+        InputError, match=r"^source = '\w+' flies only live: atlas-cueing live FILE"
+    ):
         run_scenario(scenario, tmp_path / "log.mcap")
     assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]
 
@@ -270,24 +324,50 @@ def test_what_flies_live_goes_into_its_log(tmp_path: Path, text: str) -> None:
     assert load_scenario(tmp_path / "scenario.toml").live_flight == scenario.live_flight
 
 
-@pytest.mark.parametrize("host", ['"0.0.0.0"', '"192.168.1.2"', '"::1"', '"localhost"', '""', "1", "nan", "[]"])
+@pytest.mark.parametrize(
+    "host", ['"0.0.0.0"', '"192.168.1.2"', '"::1"', '"localhost"', '""', "1", "nan", "[]"]
+)
 def test_packets_of_other_machines_are_not_taken_yet(refused: Refused, host: str) -> None:
     (told,) = refused(FLIGHTGEAR, f"vehicle.host={host}")
-    assert told.endswith("allowed: '127.0.0.1' or another loopback address; packets from other machines are not taken yet")
+    assert told.endswith(
+        "allowed: '127.0.0.1' or another loopback address; packets from other machines are not"
+        " taken yet"
+    )
 
 
 @pytest.mark.parametrize(
     ("text", "mistakes"),
     [
-        (FLIGHTGEAR.replace("[platform]", "port = 0\n[platform]"), ["port = 0: allowed: a whole number, 1 <= value <= 65535"]),
-        (FLIGHTGEAR.replace("[platform]", "port = 5.5\n[platform]"), ["port = 5.5: allowed: a whole number"]),
-        (FLIGHTGEAR.replace("[platform]", "rate_hz = 1\n[platform]"), ["rate_hz = 1: allowed: a number, 10 <= value <= 1000"]),
-        (FLIGHTGEAR.replace("[platform]", 'log = "x"\n[platform]'), ["log: not with source = 'flightgear'"]),
-        (FLIGHTGEAR.replace("[platform]", 'script = "c1722"\n[platform]'), ["script: not with source = 'flightgear'"]),
-        (RECORDING.replace('log = "logs/flown.mcap"', ""), ["log: missing, the log that is played"]),
+        (
+            FLIGHTGEAR.replace("[platform]", "port = 0\n[platform]"),
+            ["port = 0: allowed: a whole number, 1 <= value <= 65535"],
+        ),
+        (
+            FLIGHTGEAR.replace("[platform]", "port = 5.5\n[platform]"),
+            ["port = 5.5: allowed: a whole number"],
+        ),
+        (
+            FLIGHTGEAR.replace("[platform]", "rate_hz = 1\n[platform]"),
+            ["rate_hz = 1: allowed: a number, 10 <= value <= 1000"],
+        ),
+        (
+            FLIGHTGEAR.replace("[platform]", 'log = "x"\n[platform]'),
+            ["log: not with source = 'flightgear'"],
+        ),
+        (
+            FLIGHTGEAR.replace("[platform]", 'script = "c1722"\n[platform]'),
+            ["script: not with source = 'flightgear'"],
+        ),
+        (
+            RECORDING.replace('log = "logs/flown.mcap"', ""),
+            ["log: missing, the log that is played"],
+        ),
         (RECORDING.replace('"logs/flown.mcap"', '""'), ["log = '': allowed: path of a log"]),
         (RECORDING.replace('"logs/flown.mcap"', "1"), ["log = 1: allowed: path of a log"]),
-        (RECORDING.replace("[platform]", "rate_hz = 50\nport = 5\n[platform]"), ["rate_hz: not with", "port: not with"]),
+        (
+            RECORDING.replace("[platform]", "rate_hz = 50\nport = 5\n[platform]"),
+            ["rate_hz: not with", "port: not with"],
+        ),
         (SCRIPT.replace('"c1722"', '"c1722"\nport = 5'), ["port: only with source = 'flightgear'"]),
         (SCRIPT.replace('"c1722"', '"c1722"\nlog = "x"'), ["log: only with source = 'recording'"]),
     ],

@@ -21,11 +21,15 @@ def test_a_jump_has_its_size_whatever_the_quaternion_s_sign(size: float, sign: f
     w, dt = (0.5, 0.2, -0.4), 0.01
     turned = multiply(exp(scale(dt, w)), exp((0.0, size, 0.0)))
     now = VehicleState(dt, tuple(sign * x for x in turned), w, LEVEL)
-    assert attitude_jump(VehicleState(0.0, IDENTITY, w, LEVEL), now) == pytest.approx(size, abs=2e-3 * size + 1e-9)
+    assert attitude_jump(VehicleState(0.0, IDENTITY, w, LEVEL), now) == pytest.approx(
+        size, abs=2e-3 * size + 1e-9
+    )
 
 
 def test_rates_are_taken_by_the_trapezoid() -> None:
     before = VehicleState(1.0, IDENTITY, (0.0, 0.0, 0.0), LEVEL)
     now = VehicleState(1.1, exp((0.05, 0.0, 0.0)), (1.0, 0.0, 0.0), LEVEL)
     assert attitude_jump(before, now) == pytest.approx(0.0, abs=1e-7)
-    assert attitude_jump(before, VehicleState(1.1, IDENTITY, (1.0, 0.0, 0.0), LEVEL)) == pytest.approx(0.05)
+    assert attitude_jump(
+        before, VehicleState(1.1, IDENTITY, (1.0, 0.0, 0.0), LEVEL)
+    ) == pytest.approx(0.05)

@@ -14,7 +14,9 @@ from scipy.spatial.transform import Rotation
 from atlas_cueing.rotation import flip_rotation, from_euler
 from atlas_cueing.signals import STANDARD_GRAVITY, direction_error, felt
 
-ROWS = json.loads((Path(__file__).parent.parent / "oracles" / "felt_force.json").read_text())["rows"]
+ROWS = json.loads((Path(__file__).parent.parent / "oracles" / "felt_force.json").read_text())[
+    "rows"
+]
 TURNS = [row for row in ROWS if row["case"] == "level coordinated turn"]
 RESTS = [row for row in ROWS if row["case"] == "sphere at rest, stage at rest"]
 ZERO = np.zeros((1, 3))
@@ -41,12 +43,16 @@ def test_at_rest_at_any_attitude(row: dict[str, Any]) -> None:
 
 
 @pytest.mark.parametrize("row", TURNS)
-def test_level_turn_with_attitude_one_to_one_and_aligned_with_the_force(row: dict[str, Any]) -> None:
+def test_level_turn_with_attitude_one_to_one_and_aligned_with_the_force(
+    row: dict[str, Any],
+) -> None:
     vehicle = np.array([row["vehicle_f"]])
     banked, aligned = at_rest(0.0, row["bank_deg"]), at_rest(0.0, 0.0)
     np.testing.assert_allclose(banked, row["attitude_true_felt"], atol=1e-12)
     np.testing.assert_allclose(aligned, row["force_aligned_felt"], atol=1e-12)
-    banked_error, aligned_error = (np.degrees(direction_error(vehicle, [f])[0]) for f in (banked, aligned))
+    banked_error, aligned_error = (
+        np.degrees(direction_error(vehicle, [f])[0]) for f in (banked, aligned)
+    )
     assert banked_error == pytest.approx(row["attitude_true_direction_error_deg"], abs=1e-12)
     assert aligned_error == pytest.approx(row["force_aligned_direction_error_deg"], abs=1e-12)
 
@@ -66,7 +72,9 @@ def test_a_head_off_the_centre_feels_centripetal_and_tangential_acceleration() -
 def test_rates_are_those_of_the_cabin() -> None:
     """Rolled right by 90 deg (cabin y points down), a turn to the left about the vertical is a turn nose down for the rider."""
     q_WS = flip_rotation(from_euler(0.0, 0.0, radians(90.0)))
-    np.testing.assert_allclose(felt([q_WS], [[0.0, 0.0, 1.0]], ZERO, ZERO, ZERO[0])[1], [[0.0, -1.0, 0.0]], atol=1e-15)
+    np.testing.assert_allclose(
+        felt([q_WS], [[0.0, 0.0, 1.0]], ZERO, ZERO, ZERO[0])[1], [[0.0, -1.0, 0.0]], atol=1e-15
+    )
 
 
 @settings(deadline=None)
@@ -81,7 +89,9 @@ def test_felt_against_scipy(cabin: Rotation, w: Any, alpha: Any, a: Any, head: A
 
 @settings(deadline=None)
 @given(st.floats(0.0, np.pi), vectors, st.floats(0.1, 10.0))
-def test_direction_error_is_the_angle_whatever_the_lengths(angle: float, axis: Any, length: float) -> None:
+def test_direction_error_is_the_angle_whatever_the_lengths(
+    angle: float, axis: Any, length: float
+) -> None:
     f = np.array([[0.0, 0.0, -9.8]])
     g = length * np.array([[sin(angle), 0.0, -cos(angle)]])
     turn = Rotation.from_rotvec(axis)
@@ -101,7 +111,9 @@ def test_a_whole_run_is_its_ticks_one_by_one() -> None:
     head = (0.1, -0.2, 0.3)
     whole = felt(*columns, head)
     for k in (0, 137, 299):
-        for run, tick in zip(whole, felt(*(column[k : k + 1] for column in columns), head), strict=True):
+        for run, tick in zip(
+            whole, felt(*(column[k : k + 1] for column in columns), head), strict=True
+        ):
             np.testing.assert_array_equal(run[k], tick[0])
 
 

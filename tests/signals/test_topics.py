@@ -14,7 +14,19 @@ from atlas_cueing.signals import (
 )
 
 CUE = [
-    *("time_s", "q_ws_w", "q_ws_x", "q_ws_y", "q_ws_z", "wx_rad_s", "wy_rad_s", "wz_rad_s", "px_m", "py_m", "pz_m"),
+    *(
+        "time_s",
+        "q_ws_w",
+        "q_ws_x",
+        "q_ws_y",
+        "q_ws_z",
+        "wx_rad_s",
+        "wy_rad_s",
+        "wz_rad_s",
+        "px_m",
+        "py_m",
+        "pz_m",
+    ),
     *("vx_m_s", "vy_m_s", "vz_m_s", "ax_m_s2", "ay_m_s2", "az_m_s2"),
 ]
 EXPECTED = {
@@ -29,9 +41,26 @@ EXPECTED = {
         *CUE[8:],
         *("wheels_limited", "stage_limited"),
     ],
-    "/wheels": ["time_s", "w1_rad_s", "w2_rad_s", "w3_rad_s", "a1_rad_s2", "a2_rad_s2", "a3_rad_s2"],
+    "/wheels": [
+        "time_s",
+        "w1_rad_s",
+        "w2_rad_s",
+        "w3_rad_s",
+        "a1_rad_s2",
+        "a2_rad_s2",
+        "a3_rad_s2",
+    ],
     "/felt": [
-        *("time_s", "fx_m_s2", "fy_m_s2", "fz_m_s2", "wx_rad_s", "wy_rad_s", "wz_rad_s", "direction_error_rad"),
+        *(
+            "time_s",
+            "fx_m_s2",
+            "fy_m_s2",
+            "fz_m_s2",
+            "wx_rad_s",
+            "wy_rad_s",
+            "wz_rad_s",
+            "direction_error_rad",
+        ),
     ],
 }
 
@@ -63,9 +92,29 @@ def test_a_row_has_its_numbers_in_the_order_of_the_table() -> None:
     vehicle = VehicleState(time=t0, q_NB=q0, w_NB_B=w0, f_B=f0)
     (t1,), q1, w1, p1, v1, a1 = take(1), take(4), take(3), take(3), take(3), take(3)
     cue = Cue(time=t1, q_WS=q1, w_WS_W=w1, p_WS_W=p1, v_WS_W=v1, a_WS_W=a1)
-    (t2,), q2, w2, alpha, p2, v2, a2, limited = take(1), take(4), take(3), take(3), take(3), take(3), take(3), take(2)
-    motion = Motion(time=t2, q_WS=q2, w_WS_W=w2, alpha_WS_W=alpha, p_WS_W=p2, v_WS_W=v2, a_WS_W=a2, limited=limited)
+    (t2,), q2, w2, alpha, p2, v2, a2, limited = (
+        take(1),
+        take(4),
+        take(3),
+        take(3),
+        take(3),
+        take(3),
+        take(3),
+        take(2),
+    )
+    motion = Motion(
+        time=t2,
+        q_WS=q2,
+        w_WS_W=w2,
+        alpha_WS_W=alpha,
+        p_WS_W=p2,
+        v_WS_W=v2,
+        a_WS_W=a2,
+        limited=limited,
+    )
     (t3,), speed, acceleration = take(1), take(3), take(3)
     wheels = WheelSpeeds(time=t3, speed=speed, acceleration=acceleration)
-    assert list(tick_row(Tick(vehicle, cue, motion, wheels))) == [float(k) for k in range(len(names))]
+    assert list(tick_row(Tick(vehicle, cue, motion, wheels))) == [
+        float(k) for k in range(len(names))
+    ]
     assert next(numbers, None) is None

@@ -44,7 +44,10 @@ class Recorder(AxisSmoothing):
     def _two_halves(self, v: float, a: float, v1: float, a1: float) -> Array:
         """Path of two halves of constant jerk from (v, a) to (v1, a1)."""
         j1, j2 = self._jerks @ [a1 - a, v1 - v - a * self.dt]
-        first, second = np.minimum(self.times, 0.5 * self.dt), np.maximum(self.times - 0.5 * self.dt, 0.0)
+        first, second = (
+            np.minimum(self.times, 0.5 * self.dt),
+            np.maximum(self.times - 0.5 * self.dt, 0.0),
+        )
         return np.stack(coast(*coast(0.0, v, a, j1, first), j2, second), axis=1)
 
     def _admissible(self, path: Array) -> bool:
@@ -56,17 +59,29 @@ class Recorder(AxisSmoothing):
         )
 
     def _fits(self, path: Array, step: Step) -> bool:
-        """Whether the path ends where the step does: within a millionth of what the jerk could do, and rounding."""
-        near = (1e-6 * self.jerk * self.dt**3 + 1e-13, 1e-6 * self.jerk * self.dt**2 + 1e-12, 1e-9 * self.acceleration)
+        """Whether the path ends where the step does.
+
+        Within a millionth of what the jerk could do, and rounding.
+        """
+        near = (
+            1e-6 * self.jerk * self.dt**3 + 1e-13,
+            1e-6 * self.jerk * self.dt**2 + 1e-12,
+            1e-9 * self.acceleration,
+        )
         ends = (step.displacement, step.v, step.a)
-        return all(abs(x - y) <= tolerance for x, y, tolerance in zip(path[-1].tolist(), ends, near, strict=True))
+        return all(
+            abs(x - y) <= tolerance
+            for x, y, tolerance in zip(path[-1].tolist(), ends, near, strict=True)
+        )
 
     def _keep(self, kind: str, path: Array) -> None:
         self.kinds[kind] += 1
         self.path = path
 
 
-def coast(p: float | Array, v: float | Array, a: float | Array, j: float, t: Array) -> tuple[Array, Array, Array]:
+def coast(
+    p: float | Array, v: float | Array, a: float | Array, j: float, t: Array
+) -> tuple[Array, Array, Array]:
     return p + v * t + a * t**2 / 2.0 + j * t**3 / 6.0, v + a * t + j * t**2 / 2.0, a + j * t
 
 
@@ -76,9 +91,15 @@ def ruckig_path(v: float, a: float, v_target: float, a_target: float, axis: Axis
     inputs.minimum_duration = axis.dt
     inputs.current_velocity, inputs.current_acceleration = [v], [a]
     inputs.target_velocity, inputs.target_acceleration = [v_target], [a_target]
-    inputs.max_velocity, inputs.max_acceleration, inputs.max_jerk = [axis.speed], [axis.acceleration], [axis.jerk]
+    inputs.max_velocity, inputs.max_acceleration, inputs.max_jerk = (
+        [axis.speed],
+        [axis.acceleration],
+        [axis.jerk],
+    )
     try:
         Ruckig(1, axis.dt).calculate(inputs, trajectory)
     except (RuckigError, ValueError):
         return np.full((SUBSTEPS + 1, 3), np.nan)
-    return np.array([[x[0] for x in trajectory.at_time(t)] for t in np.linspace(0.0, axis.dt, SUBSTEPS + 1)])
+    return np.array(
+        [[x[0] for x in trajectory.at_time(t)] for t in np.linspace(0.0, axis.dt, SUBSTEPS + 1)]
+    )

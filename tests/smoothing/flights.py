@@ -13,8 +13,9 @@ from .platforms import Platform
 
 Array = NDArray[np.float64]
 
-# Jerk-limited by J, x1 - x0 = dt (v0 + v1) / 2 - dt^2 (a1 - a0) / 12 up to J dt^3 times the integral over u of
-# |u^2/2 - u/2 + 1/12| (Euler-Maclaurin with Peano's kernel); v1 - v0 = dt (a0 + a1) / 2 up to J dt^2 times that of |u - 1/2|.
+# Jerk-limited by J, x1 - x0 = dt (v0 + v1) / 2 - dt^2 (a1 - a0) / 12 up to J dt^3 times the
+# integral over u of |u^2/2 - u/2 + 1/12| (Euler-Maclaurin with Peano's kernel); v1 - v0 = dt (a0 +
+# a1) / 2 up to J dt^2 times that of |u - 1/2|.
 _BEND_X, _BEND_V = np.sqrt(3.0) / 54.0, 0.25
 
 
@@ -35,9 +36,22 @@ class Flight:
 
 def fly(platform: Platform, dt: float, cues: Iterable[Cue]) -> Flight:
     step = platform.smoothing(dt).step
-    rows = [(m.time, *m.q_WS, *m.w_WS_W, *m.alpha_WS_W, *m.p_WS_W, *m.v_WS_W, *m.a_WS_W, *m.limited) for m in map(step, cues)]
+    rows = [
+        (m.time, *m.q_WS, *m.w_WS_W, *m.alpha_WS_W, *m.p_WS_W, *m.v_WS_W, *m.a_WS_W, *m.limited)
+        for m in map(step, cues)
+    ]
     x = np.array(rows)
-    return Flight(dt, x[:, 0], x[:, 1:5], x[:, 5:8], x[:, 8:11], x[:, 11:14], x[:, 14:17], x[:, 17:20], x[:, 20:22])
+    return Flight(
+        dt,
+        x[:, 0],
+        x[:, 1:5],
+        x[:, 5:8],
+        x[:, 8:11],
+        x[:, 11:14],
+        x[:, 14:17],
+        x[:, 17:20],
+        x[:, 20:22],
+    )
 
 
 def turned(q: Array) -> Array:
@@ -49,7 +63,9 @@ def turned(q: Array) -> Array:
 def wheel_turns(platform: Platform, flight: Flight) -> Array:
     """Angle of each wheel in each tick, from the orientation alone (Magnus' commutator taken off again)."""
     w = flight.w
-    return (turned(flight.q) - flight.dt**2 / 12.0 * np.cross(w[1:], w[:-1])) @ platform.wheels_from_sphere.T
+    return (
+        turned(flight.q) - flight.dt**2 / 12.0 * np.cross(w[1:], w[:-1])
+    ) @ platform.wheels_from_sphere.T
 
 
 def use(platform: Platform, flight: Flight) -> dict[str, Array]:
@@ -66,12 +82,20 @@ def use(platform: Platform, flight: Flight) -> dict[str, Array]:
             (wheels.speed, wheels.acceleration, wheels.jerk),
         ).items()
     }
-    moved = _dynamic(dt, np.diff(flight.p, axis=0), flight.v, flight.a, (stage.speed, stage.acceleration, stage.jerk))
+    moved = _dynamic(
+        dt,
+        np.diff(flight.p, axis=0),
+        flight.v,
+        flight.a,
+        (stage.speed, stage.acceleration, stage.jerk),
+    )
     shares |= {f"stage {name}": share for name, share in moved.items()}
     return shares | {"stage travel": np.max(np.abs(flight.p), axis=0) / stage.travel}
 
 
-def _dynamic(dt: float, dx: Array, v: Array, a: Array, limits: tuple[object, ...]) -> dict[str, Array]:
+def _dynamic(
+    dt: float, dx: Array, v: Array, a: Array, limits: tuple[object, ...]
+) -> dict[str, Array]:
     speed, acceleration, jerk = (np.array(x) for x in limits)
 
     def most(*x: Array) -> Array:
@@ -79,17 +103,33 @@ def _dynamic(dt: float, dx: Array, v: Array, a: Array, limits: tuple[object, ...
 
     return {
         "speed": most(v, dx / dt) / speed,
-        "acceleration": most(a, np.diff(v, axis=0) / dt, np.diff(dx, axis=0) / dt**2) / acceleration,
-        "jerk": most(np.diff(a, axis=0) / dt, np.diff(v, 2, axis=0) / dt**2, np.diff(dx, 2, axis=0) / dt**3) / jerk,
-        "fit of displacement": most(dx - 0.5 * dt * (v[1:] + v[:-1]) + dt**2 / 12.0 * np.diff(a, axis=0))
-        / (_BEND_X * jerk * dt**3 + 1e-13),
-        "fit of speed": most(np.diff(v, axis=0) - 0.5 * dt * (a[1:] + a[:-1])) / (_BEND_V * jerk * dt**2 + 1e-12),
+        "acceleration": (
+            most(a, np.diff(v, axis=0) / dt, np.diff(dx, axis=0) / dt**2) / acceleration
+        ),
+        "jerk": (
+            most(
+                np.diff(a, axis=0) / dt,
+                np.diff(v, 2, axis=0) / dt**2,
+                np.diff(dx, 2, axis=0) / dt**3,
+            )
+            / jerk
+        ),
+        "fit of displacement": (
+            most(dx - 0.5 * dt * (v[1:] + v[:-1]) + dt**2 / 12.0 * np.diff(a, axis=0))
+            / (_BEND_X * jerk * dt**3 + 1e-13)
+        ),
+        "fit of speed": (
+            most(np.diff(v, axis=0) - 0.5 * dt * (a[1:] + a[:-1]))
+            / (_BEND_V * jerk * dt**2 + 1e-12)
+        ),
     }
 
 
 def check(platform: Platform, flight: Flight) -> dict[str, Array]:
     """Assert that the flight is a motion inside every limit; the shares used, for the record."""
-    everything = np.hstack([flight.q, flight.w, flight.alpha, flight.p, flight.v, flight.a, flight.limited])
+    everything = np.hstack(
+        [flight.q, flight.w, flight.alpha, flight.p, flight.v, flight.a, flight.limited]
+    )
     assert np.all(np.isfinite(everything))
     np.testing.assert_allclose(np.linalg.norm(flight.q, axis=1), 1.0, rtol=0.0, atol=1e-12)
     assert np.all(np.sum(flight.q[1:] * flight.q[:-1], axis=1) > 0.0), "the quaternion's sign jumps"

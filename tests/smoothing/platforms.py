@@ -20,7 +20,10 @@ class Platform:
     stage: StageLimits
 
     def smoothing(self, dt: float) -> Smoothing:
-        rows, columns = self.wheels_from_sphere.tolist(), np.linalg.inv(self.wheels_from_sphere).tolist()
+        rows, columns = (
+            self.wheels_from_sphere.tolist(),
+            np.linalg.inv(self.wheels_from_sphere).tolist(),
+        )
         return Smoothing(
             dt=dt,
             wheels_from_sphere=(tuple(rows[0]), tuple(rows[1]), tuple(rows[2])),

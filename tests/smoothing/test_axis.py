@@ -71,18 +71,29 @@ def test_clip_gives_the_nearest_target_from_which_the_speed_can_be_kept(v: float
     assert axis.clip(v1, a1) == (v1, a1)
     if abs(v) <= axis.speed:
         assert v1 == v
-    if abs(a) <= axis.acceleration and abs(v1) + a**2 / (2.0 * axis.jerk) <= axis.speed * (1.0 - 1e-9):
+    if abs(a) <= axis.acceleration and abs(v1) + a**2 / (2.0 * axis.jerk) <= axis.speed * (
+        1.0 - 1e-9
+    ):
         assert a1 == a
 
 
 @given(dts, st.floats(-0.9, 0.9), st.floats(-1.0, 1.0), st.floats(-1.0, 1.0), st.floats(-1.0, 1.0))
-def test_a_target_within_reach_is_met_exactly_at_the_tick(dt: float, k: float, share: float, j1: float, j2: float) -> None:
-    """Reached by two halves of jerk j1, j2 inside the limits: met, and the displacement is theirs."""
+def test_a_target_within_reach_is_met_exactly_at_the_tick(
+    dt: float, k: float, share: float, j1: float, j2: float
+) -> None:
+    """Reached by two halves of jerk j1, j2 inside the limits.
+
+    Met, and the displacement is theirs.
+    """
     axis, h = make(dt), 0.5 * dt
     v, a = k * SPEED, share * (1.0 - abs(k)) * ACCELERATION
     p1, v1, a1 = 0.0, v, a
     for j in (j1 * axis.jerk * (1.0 - 1e-6), j2 * axis.jerk * (1.0 - 1e-6)):
-        p1, v1, a1 = p1 + v1 * h + a1 * h**2 / 2.0 + j * h**3 / 6.0, v1 + a1 * h + j * h**2 / 2.0, a1 + j * h
+        p1, v1, a1 = (
+            p1 + v1 * h + a1 * h**2 / 2.0 + j * h**3 / 6.0,
+            v1 + a1 * h + j * h**2 / 2.0,
+            a1 + j * h,
+        )
         if abs(a1) > axis.acceleration:
             return
     if axis.clip(v1, a1) != (v1, a1):
@@ -100,7 +111,8 @@ def test_a_distant_target_is_not_met_until_it_is() -> None:
         v, a, ticks = step.v, step.a, ticks + 1
         if step.met:
             break
-    assert ticks * DT == pytest.approx(2.0 * np.sqrt(5.0 / JERK), abs=DT)  # the shortest way: jerk up, jerk down
+    # the shortest way: jerk up, jerk down
+    assert ticks * DT == pytest.approx(2.0 * np.sqrt(5.0 / JERK), abs=DT)
     assert (v, a) == (pytest.approx(5.0), pytest.approx(0.0, abs=1e-12))
     assert axis.towards(v, a, 5.0, 0.0) == Step(pytest.approx(5.0 * DT), 5.0, 0.0, True)  # type: ignore[arg-type]
 
@@ -110,7 +122,12 @@ def test_the_same_question_has_the_same_answer() -> None:
     axis = make()
     first = axis.towards(1.0, 2.0, *FAR)
     axis.towards(-20.0, 30.0, -SPEED, 5.0)
-    assert axis.towards(1.0, 2.0, *FAR) == first == axis.towards(1.0, 2.0, *FAR) == make().towards(1.0, 2.0, *FAR)
+    assert (
+        axis.towards(1.0, 2.0, *FAR)
+        == first
+        == axis.towards(1.0, 2.0, *FAR)
+        == make().towards(1.0, 2.0, *FAR)
+    )
     assert not first.met
 
 
@@ -153,7 +170,9 @@ def test_a_result_that_is_an_error_is_one() -> None:
         {"a": nan},
     ],
 )
-def test_an_answer_that_no_jerk_inside_the_limits_leads_to_is_refused(lie: dict[str, float]) -> None:
+def test_an_answer_that_no_jerk_inside_the_limits_leads_to_is_refused(
+    lie: dict[str, float],
+) -> None:
     axis = make()
     honest = axis.towards(1.0, 0.0, *FAR)
     told = {"p": honest.displacement, "v": honest.v, "a": honest.a}
@@ -177,11 +196,15 @@ def test_an_answer_beyond_the_limits_is_refused(v: float, a: float) -> None:
 def pretend(axis: AxisSmoothing, told: dict[str, float]) -> None:
     """Let the generator say this."""
     axis._generator = SimpleNamespace(calculate=lambda *_: Result.Working)
-    axis._trajectory = SimpleNamespace(duration=1.0, at_time=lambda _: ([told["p"]], [told["v"]], [told["a"]]))
+    axis._trajectory = SimpleNamespace(
+        duration=1.0, at_time=lambda _: ([told["p"]], [told["v"]], [told["a"]])
+    )
 
 
 @given(dts, st.lists(st.tuples(anything, anything), min_size=1, max_size=60))
-def test_limits_hold_at_and_between_ticks_for_any_targets(dt: float, targets: list[tuple[float, float]]) -> None:
+def test_limits_hold_at_and_between_ticks_for_any_targets(
+    dt: float, targets: list[tuple[float, float]]
+) -> None:
     fly(Recorder(dt, SPEED, ACCELERATION, JERK), targets)
 
 
@@ -190,17 +213,23 @@ def test_limits_hold_at_and_between_ticks_for_random_targets(dt: float) -> None:
     """Around the limits, where the clipping decides; all three ways to make a step are taken."""
     random = np.random.default_rng(11)
     axis = Recorder(dt, SPEED, ACCELERATION, JERK)
-    targets = np.stack([random.normal(0.0, SPEED, 1500), random.normal(0.0, 2.0 * ACCELERATION, 1500)], axis=1)
+    targets = np.stack(
+        [random.normal(0.0, SPEED, 1500), random.normal(0.0, 2.0 * ACCELERATION, 1500)], axis=1
+    )
     targets = np.repeat(targets, random.integers(1, 6, len(targets)), axis=0)
     near = random.random(len(targets)) < 0.2
     fly(axis, [(nan, 0.0) if random.random() < 0.02 else tuple(t) for t in targets], near.tolist())
     assert axis.kinds["stop"] > 10
     assert axis.kinds["halves"] > 100
-    assert axis.kinds["ruckig"] > 20 or dt < 0.005  # in a short tick one jerk serves both halves, and the two agree
+    # in a short tick one jerk serves both halves, and the two agree
+    assert axis.kinds["ruckig"] > 20 or dt < 0.005
 
 
 def fly(axis: Recorder, targets: list[tuple[float, float]], near: list[bool] | None = None) -> None:
-    """Fly towards each target for a tick (or near where the axis is going anyway); check limits along every path."""
+    """Fly towards each target for a tick (or near where the axis is going anyway).
+
+    Check limits along every path.
+    """
     v = a = 0.0
     bound = 1.0 + 1e-9
     for target, close in zip(targets, near or [False] * len(targets), strict=True):
@@ -235,7 +264,9 @@ def test_the_cloud_is_never_called() -> None:
     """Setting `intermediate_positions` would; so nothing in the package may set or fill it."""
     files = list(Path(atlas_cueing.__file__).parent.rglob("*.py"))
     assert len(files) > 20
-    used = re.compile(r"\.\s*intermediate_positions|setattr|per_section|add_via|RuckigCloud|Trackig")
+    used = re.compile(
+        r"\.\s*intermediate_positions|setattr|per_section|add_via|RuckigCloud|Trackig"
+    )
     found = [f.name for f in files if used.search(f.read_text())]
     assert found == []
     assert used.search("self._input.intermediate_positions = [[0.0]]")

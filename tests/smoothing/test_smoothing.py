@@ -20,7 +20,10 @@ TICKS = [1.0 / 1000.0, 1.0 / 500.0, 1.0 / 120.0, 1.0 / 60.0, 1.0 / 20.0]
 
 
 def test_a_hundred_thousand_random_ticks() -> None:
-    """Three platforms, five tick lengths, every kind of cue; the limits are also reached, so that the test could fail."""
+    """Three platforms, five tick lengths, every kind of cue.
+
+    The limits are also reached, so that the test could fail.
+    """
     ticks, worst = 0, {}
     for seed in range(68):
         random = np.random.default_rng(seed)
@@ -39,7 +42,9 @@ def test_a_hundred_thousand_random_ticks() -> None:
 
 number = st.floats() | st.sampled_from(BAD)
 unit = st.tuples(*(st.floats(-1.0, 1.0),) * 4).filter(lambda q: np.hypot.reduce(q) > 0.1)
-quaternions = unit.map(lambda q: tuple((np.array(q) / np.hypot.reduce(q)).tolist())) | st.tuples(*(number,) * 4)
+quaternions = unit.map(lambda q: tuple((np.array(q) / np.hypot.reduce(q)).tolist())) | st.tuples(
+    *(number,) * 4
+)
 vectors = st.tuples(*(st.floats(-5.0, 5.0),) * 3) | st.tuples(*(number,) * 3)
 cues = st.builds(Cue, number, quaternions, vectors, vectors, vectors, vectors)
 positive = st.floats(0.5, 20.0)
@@ -60,15 +65,24 @@ def platforms(draw: st.DrawFn) -> Platform:
 
 
 @settings(max_examples=40, deadline=None)
-@given(platforms(), st.sampled_from(TICKS), st.lists(st.tuples(cues, st.integers(1, 40)), min_size=1, max_size=25))
-def test_any_cues_on_any_platform(platform: Platform, dt: float, spells: list[tuple[Cue, int]]) -> None:
+@given(
+    platforms(),
+    st.sampled_from(TICKS),
+    st.lists(st.tuples(cues, st.integers(1, 40)), min_size=1, max_size=25),
+)
+def test_any_cues_on_any_platform(
+    platform: Platform, dt: float, spells: list[tuple[Cue, int]]
+) -> None:
     check(platform, fly(platform, dt, [UPRIGHT, *(c for asked, n in spells for c in [asked] * n)]))
 
 
 @pytest.mark.parametrize("field", ["time", "q_WS", "w_WS_W", "p_WS_W", "v_WS_W", "a_WS_W"])
 @pytest.mark.parametrize("bad", BAD)
 def test_one_bad_number_at_a_time(field: str, bad: float) -> None:
-    """In the midst of a good cue, for one tick and for many; afterwards the good cue is met again."""
+    """In the midst of a good cue, for one tick and for many.
+
+    Afterwards the good cue is met again.
+    """
     dt = 1.0 / 60.0
     asked = smooth(dt, 900, np.random.default_rng(1))
     for at, length in ((240, 1), (300, 60)):
@@ -91,7 +105,10 @@ def test_a_bad_stage_does_not_stop_the_sphere_nor_the_other_way_round() -> None:
     for q, p in ((turned, nan), (np.full(4, np.nan), half)):
         flight = fly(EQUILATERAL, dt, [UPRIGHT] + [cue(0.0, q, zero, p, zero, zero)] * 1200)
         check(EQUILATERAL, flight)
-        sphere_moved, stage_moved = abs(flight.q[-1][1]) > 0.999999, abs(flight.p[-1][0] - 0.5) < 1e-6
+        sphere_moved, stage_moved = (
+            abs(flight.q[-1][1]) > 0.999999,
+            abs(flight.p[-1][0] - 0.5) < 1e-6,
+        )
         assert (sphere_moved, stage_moved) == (p is nan, p is half)
         assert tuple(flight.limited[-1]) == (float(p is half), float(p is nan))
 
@@ -107,7 +124,9 @@ def test_it_starts_at_rest_on_the_first_cue() -> None:
     assert times == pytest.approx([5.01, 5.02, 5.03])
 
 
-@pytest.mark.parametrize(("asked", "begun"), [(7.0, 1.0), (-7.0, -1.0), (np.nan, 0.0), (np.inf, 0.0)])
+@pytest.mark.parametrize(
+    ("asked", "begun"), [(7.0, 1.0), (-7.0, -1.0), (np.nan, 0.0), (np.inf, 0.0)]
+)
 def test_it_starts_inside_the_travel(asked: float, begun: float) -> None:
     smoothing = EQUILATERAL.smoothing(0.01)
     travel = EQUILATERAL.stage.travel[1]
@@ -117,7 +136,9 @@ def test_it_starts_inside_the_travel(asked: float, begun: float) -> None:
 
 
 @pytest.mark.parametrize("q", [(np.nan, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0), (2.0, 0.0, 0.0, 0.0)])
-def test_a_first_cue_that_is_no_orientation_is_refused(q: tuple[float, float, float, float]) -> None:
+def test_a_first_cue_that_is_no_orientation_is_refused(
+    q: tuple[float, float, float, float],
+) -> None:
     smoothing = EQUILATERAL.smoothing(0.01)
     with pytest.raises(PlanningError, match="first cue"):
         smoothing.step(Cue(0.0, q, ZERO, ZERO, ZERO, ZERO))

@@ -36,7 +36,9 @@ def left(flight: Flight, cues: list[Cue]) -> Array:
 @pytest.mark.parametrize("dt", DTS[1:])
 @pytest.mark.parametrize("platform", [EQUILATERAL, UNEQUAL])
 @pytest.mark.parametrize("degrees", [10.0, 90.0, 179.9, 180.0])
-def test_a_step_is_caught_up_exactly_and_without_overshoot(platform: Platform, degrees: float, dt: float) -> None:
+def test_a_step_is_caught_up_exactly_and_without_overshoot(
+    platform: Platform, degrees: float, dt: float
+) -> None:
     seconds = 8.0 if platform is EQUILATERAL else 18.0
     cues = [UPRIGHT] + [standing(np.radians(degrees) * AXIS)] * int(seconds / dt)
     flight = fly(platform, dt, cues)
@@ -46,7 +48,9 @@ def test_a_step_is_caught_up_exactly_and_without_overshoot(platform: Platform, d
     along = rest @ AXIS * np.sign(rest[0] @ AXIS)
     assert np.degrees(-along.min()) < 0.01, "overshoot"
     way = np.linalg.norm(np.diff(flight.q, axis=0), axis=1).sum() * 2.0
-    assert way == pytest.approx(np.radians(degrees), rel=0.03), "by the shorter way, and nearly straight"
+    assert way == pytest.approx(np.radians(degrees), rel=0.03), (
+        "by the shorter way, and nearly straight"
+    )
     assert np.all(flight.limited[-1] == 0.0)
     assert flight.limited[1, 0] == 1.0
 
@@ -73,7 +77,9 @@ def test_a_feasible_cue_passes_without_lag_and_without_chatter(size: float, dt: 
     cues = smooth(dt, int(10.0 / dt), np.random.default_rng(3), rate=size, travel=0.5)
     flight = fly(EQUILATERAL, dt, cues)
     check(EQUILATERAL, flight)
-    asked = {name: np.array([getattr(c, name) for c in cues]) for name in ("w_WS_W", "p_WS_W", "v_WS_W")}
+    asked = {
+        name: np.array([getattr(c, name) for c in cues]) for name in ("w_WS_W", "p_WS_W", "v_WS_W")
+    }
     assert np.max(np.linalg.norm(asked["w_WS_W"], axis=1)) > 0.5 * size, "the cue should move"
     assert np.degrees(np.max(np.linalg.norm(left(flight, cues), axis=1))) < 0.1
     assert np.max(np.abs(flight.p - asked["p_WS_W"])) < 1e-3
@@ -91,7 +97,10 @@ def test_a_feasible_cue_passes_without_lag_and_without_chatter(size: float, dt: 
 
 @pytest.mark.parametrize("dt", DTS[1:])
 def test_wandering_past_half_a_turn_does_not_turn_the_catch_up_round(dt: float) -> None:
-    """The cue flickers to and fro over the far side; the sphere keeps to the way round that it has begun."""
+    """The cue flickers to and fro over the far side.
+
+    The sphere keeps to the way round that it has begun.
+    """
     cues = [UPRIGHT] + [standing((np.pi + 0.02 * (-1.0) ** i) * AXIS) for i in range(int(8.0 / dt))]
     flight = fly(EQUILATERAL, dt, cues)
     check(EQUILATERAL, flight)
@@ -99,7 +108,9 @@ def test_wandering_past_half_a_turn_does_not_turn_the_catch_up_round(dt: float) 
     assert np.all(start > -1e-6) or np.all(start < 1e-6), "turned round on its way"
     steady = fly(EQUILATERAL, dt, [UPRIGHT] + [standing((np.pi - 0.02) * AXIS)] * len(cues))
     soon = int(0.1 / dt)
-    assert np.linalg.norm(flight.w[soon]) > 0.8 * np.linalg.norm(steady.w[soon]), "torn between two ways round"
+    assert np.linalg.norm(flight.w[soon]) > 0.8 * np.linalg.norm(steady.w[soon]), (
+        "torn between two ways round"
+    )
     assert np.linalg.norm(left(flight, cues)[-1]) < 0.1
 
 
@@ -109,7 +120,12 @@ def test_a_bad_cue_stops_it_smoothly_and_a_good_one_starts_it_again(bad: str, dt
     cues = smooth(dt, int(5.0 / dt), np.random.default_rng(4), rate=1.5)
     good = cues[-1]
     q, w = np.array(good.q_WS), np.array(good.w_WS_W)
-    spoilt = {"nan": (q * np.nan, w), "inf": (q, w + np.inf), "no unit": (1.1 * q, w), "absurd rate": (q, 1e4 + w)}
+    spoilt = {
+        "nan": (q * np.nan, w),
+        "inf": (q, w + np.inf),
+        "no unit": (1.1 * q, w),
+        "absurd rate": (q, 1e4 + w),
+    }
     broken = cue(good.time, *spoilt[bad], ZERO, ZERO, ZERO)
     still = cue(good.time, q, ZERO, ZERO, ZERO, ZERO)
     n, seconds = len(cues), 2.0
@@ -129,7 +145,10 @@ def test_the_orientation_is_the_integral_of_the_wheels(platform: Platform) -> No
     dt = 1.0 / 500.0
     flight = fly(platform, dt, wild(dt, 5000, np.random.default_rng(9)))
     J = np.linalg.inv(platform.wheels_from_sphere)
-    speed, acceleration = flight.w @ platform.wheels_from_sphere.T, flight.alpha @ platform.wheels_from_sphere.T
+    speed, acceleration = (
+        flight.w @ platform.wheels_from_sphere.T,
+        flight.alpha @ platform.wheels_from_sphere.T,
+    )
     # turn of each wheel from its speed and acceleration alone: trapezoid with end correction
     turn = 0.5 * dt * (speed[1:] + speed[:-1]) - dt**2 / 12.0 * np.diff(acceleration, axis=0)
     q = rotation(flight.q[0])
@@ -169,7 +188,9 @@ def test_turning_for_hundreds_of_turns_loses_nothing() -> None:
 
 @pytest.mark.parametrize(("dt", "within"), [(1.0 / 1000.0, 0.01), (1.0 / 240.0, 0.01)])
 @pytest.mark.parametrize("platform", PLATFORMS.values(), ids=PLATFORMS.keys())
-def test_a_small_error_decays_with_a_time_constant_of_a_quarter_second(platform: Platform, dt: float, within: float) -> None:
+def test_a_small_error_decays_with_a_time_constant_of_a_quarter_second(
+    platform: Platform, dt: float, within: float
+) -> None:
     """exp(-4 t) from the first tick on: speed and acceleration asked for are those of one motion, |e|'' = 4^2 |e|.
 
     With the acceleration the other way round, or left out, each tick would cover another way than the speed at its end tells.

@@ -1,4 +1,7 @@
-"""The stage inside its rails: at the ticks and between them, whatever it is asked; and on the cue when that is feasible."""
+"""The stage inside its rails: at the ticks and between them, whatever it is asked.
+
+And on the cue when that is feasible.
+"""
 
 from collections.abc import Iterable
 from itertools import pairwise
@@ -18,9 +21,15 @@ from .between import Recorder
 from .cues import sines
 
 TRAVEL, SPEED, ACCELERATION, JERK = 1.0, 1.5, 6.0, 60.0
-LIMITS = [(1.0, 1.5, 6.0, 60.0), (0.1, 0.5, 4.0, 20.0), (0.05, 2.0, 20.0, 90.0), (5.0, 0.3, 2.0, 8.0)]
+LIMITS = [
+    (1.0, 1.5, 6.0, 60.0),
+    (0.1, 0.5, 4.0, 20.0),
+    (0.05, 2.0, 20.0, 90.0),
+    (5.0, 0.3, 2.0, 8.0),
+]
 DTS = [1.0 / 1000.0, 1.0 / 120.0, 1.0 / 20.0]
-# Where a few ticks of full acceleration fit into the travel; 0.05 m is too little for a tick of 50 ms at 20 m/s^2.
+# Where a few ticks of full acceleration fit into the travel; 0.05 m is too little for a tick of 50
+# ms at 20 m/s^2.
 ROOMY = [(dt, limit) for dt in DTS for limit in LIMITS[:3] if limit[0] > 4.0 * limit[2] * dt * dt]
 
 anything = st.floats() | st.sampled_from([nan, inf, -inf, 1e300, -1e308, 5e-324])
@@ -34,7 +43,10 @@ def recorded(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def fly(dt: float, limit: tuple[float, ...], asked: Iterable[tuple[float, ...]]) -> float:
-    """Ask for each cue for a tick; check every limit along the way. The largest share of the travel used."""
+    """Ask for each cue for a tick; check every limit along the way.
+
+    The largest share of the travel used.
+    """
     axis, paths = RailAxis(dt, *limit), []
     recorder = axis._axis
     assert isinstance(recorder, Recorder)
@@ -54,19 +66,26 @@ def fly(dt: float, limit: tuple[float, ...], asked: Iterable[tuple[float, ...]])
 @pytest.mark.usefixtures("recorded")
 @pytest.mark.parametrize("dt", DTS)
 @pytest.mark.parametrize("limit", LIMITS)
-def test_limits_hold_between_ticks_for_random_cues(dt: float, limit: tuple[float, float, float, float]) -> None:
+def test_limits_hold_between_ticks_for_random_cues(
+    dt: float, limit: tuple[float, float, float, float]
+) -> None:
     """Held cues, long enough to get somewhere, and noise."""
     random = np.random.default_rng(3)
     asked: list[tuple[float, ...]] = []
     while len(asked) < 1500:
         size, ticks = 10.0 ** random.uniform(-1.0, 2.0), int(random.uniform(0.0, 0.5) / dt) + 1
-        cue, noise = random.standard_normal(3), random.standard_normal((ticks, 3)) * (random.random() < 0.5)
+        cue, noise = (
+            random.standard_normal(3),
+            random.standard_normal((ticks, 3)) * (random.random() < 0.5),
+        )
         asked += [tuple(x) for x in size * (cue + noise) * limit[:3]]
     assert fly(dt, limit, asked) > 0.01
 
 
 @given(st.sampled_from(DTS), st.sampled_from(LIMITS), st.lists(cues, min_size=1, max_size=40))
-def test_limits_hold_for_any_cues(dt: float, limit: tuple[float, ...], asked: list[tuple[float, float, float]]) -> None:
+def test_limits_hold_for_any_cues(
+    dt: float, limit: tuple[float, ...], asked: list[tuple[float, float, float]]
+) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(stage, "Axis", Recorder)
         fly(dt, limit, asked)
@@ -75,7 +94,9 @@ def test_limits_hold_for_any_cues(dt: float, limit: tuple[float, ...], asked: li
 @pytest.mark.usefixtures("recorded")
 @pytest.mark.parametrize(("dt", "limit"), ROOMY)
 @pytest.mark.parametrize("side", [-1.0, 1.0])
-def test_driven_at_the_rail_it_uses_the_travel_and_no_more(dt: float, limit: tuple[float, ...], side: float) -> None:
+def test_driven_at_the_rail_it_uses_the_travel_and_no_more(
+    dt: float, limit: tuple[float, ...], side: float
+) -> None:
     """Running at the end of the travel with the full speed, on a cue that goes on outside."""
     ticks = int((limit[0] / limit[1] + limit[1] / limit[2] + 0.7) / dt)
     used = fly(dt, limit, ((side * limit[1] * n * dt, side * limit[1], 0.0) for n in range(ticks)))
@@ -85,7 +106,9 @@ def test_driven_at_the_rail_it_uses_the_travel_and_no_more(dt: float, limit: tup
 @pytest.mark.usefixtures("recorded")
 @pytest.mark.parametrize(("dt", "limit"), ROOMY)
 @pytest.mark.parametrize("far", [1.5, 9.0])
-def test_a_cue_far_beyond_the_rail_ends_at_the_rail(dt: float, limit: tuple[float, ...], far: float) -> None:
+def test_a_cue_far_beyond_the_rail_ends_at_the_rail(
+    dt: float, limit: tuple[float, ...], far: float
+) -> None:
     """The speed asked for on the way there is clipped before the room is looked at, or it would stop short of it, or creep."""
     ticks = int((2.0 * limit[0] / limit[1] + 3.0 * limit[1] / limit[2] + 2.0) / dt)
     used = fly(dt, limit, ((far * limit[0], 0.0, 0.0) for _ in range(ticks)))
@@ -124,7 +147,10 @@ def test_a_bad_cue_stops_it_smoothly_where_it_is(dt: float) -> None:
 
 @pytest.mark.parametrize("dt", DTS)
 def test_a_feasible_cue_is_met(dt: float) -> None:
-    """A sine that is already under way at its largest speed: caught up with first, met ever after."""
+    """A sine that is already under way at its largest speed.
+
+    Caught up with first, met ever after.
+    """
     t = np.arange(0.0, 6.0, dt)
     p, v, a = (x[:, 0] for x in sines(t, np.array([[0.3]]), np.array([[2.0]]), np.array([[0.0]])))
     axis = RailAxis(dt, TRAVEL, SPEED, ACCELERATION, JERK)

@@ -12,7 +12,9 @@ from ruckig import ControlInterface, InputParameter, Ruckig, Trajectory
 from atlas_cueing.smoothing import Stop
 from atlas_cueing.smoothing.stop import approach, stop_bound
 
-ROWS = json.loads((Path(__file__).parents[1] / "oracles" / "stop_distance.json").read_text())["rows"]
+ROWS = json.loads((Path(__file__).parents[1] / "oracles" / "stop_distance.json").read_text())[
+    "rows"
+]
 
 speed = st.floats(-50.0, 50.0) | st.floats(-1e-6, 1e-6)
 share = st.floats(-1.0, 1.0) | st.sampled_from([-1.0, 0.0, 1.0])
@@ -45,32 +47,45 @@ def shortest_by_ruckig(v: float, a: float, a_max: float, j_max: float) -> float:
 
 @pytest.mark.parametrize("row", ROWS)
 def test_pinned_distances(row: dict[str, float]) -> None:
-    stop = Stop.plan(row["v_m_s"], row["a_m_s2"], row["max_acceleration_m_s2"], row["max_jerk_m_s3"])
+    stop = Stop.plan(
+        row["v_m_s"], row["a_m_s2"], row["max_acceleration_m_s2"], row["max_jerk_m_s3"]
+    )
     assert stop.at(stop.duration)[0] == pytest.approx(row["stop_distance_m"], rel=1e-12)
     assert simulate(stop)[1][-1] == pytest.approx(row["stop_distance_m"], rel=1e-9)
-    mirrored = Stop.plan(-row["v_m_s"], -row["a_m_s2"], row["max_acceleration_m_s2"], row["max_jerk_m_s3"])
+    mirrored = Stop.plan(
+        -row["v_m_s"], -row["a_m_s2"], row["max_acceleration_m_s2"], row["max_jerk_m_s3"]
+    )
     assert mirrored.at(mirrored.duration)[0] == -stop.at(stop.duration)[0]
 
 
 @given(speed, share, bound, jerk)
-def test_the_phases_end_at_rest_inside_the_bounds(v: float, k: float, a_max: float, j_max: float) -> None:
+def test_the_phases_end_at_rest_inside_the_bounds(
+    v: float, k: float, a_max: float, j_max: float
+) -> None:
     stop = Stop.plan(v, k * a_max, a_max, j_max)
     assert len(stop.phases) == 3
     assert all(duration >= 0.0 and abs(j) in (0.0, j_max) for j, duration in stop.phases)
     p, v_end, a_end = 0.0, v, k * a_max
     for j, t in stop.phases:
-        p, v_end, a_end = p + v_end * t + a_end * t**2 / 2.0 + j * t**3 / 6.0, v_end + a_end * t + j * t**2 / 2.0, a_end + j * t
+        p, v_end, a_end = (
+            p + v_end * t + a_end * t**2 / 2.0 + j * t**3 / 6.0,
+            v_end + a_end * t + j * t**2 / 2.0,
+            a_end + j * t,
+        )
         assert abs(a_end) <= a_max * (1.0 + 1e-12)
     scale = abs(v) + a_max**2 / j_max
     assert v_end == pytest.approx(0.0, abs=1e-12 * scale)
-    assert a_end == pytest.approx(0.0, abs=1e-7 * a_max)  # a peak that is a difference of two near equals: sqrt(eps)
+    # a peak that is a difference of two near equals: sqrt(eps)
+    assert a_end == pytest.approx(0.0, abs=1e-7 * a_max)
     assert stop.at(stop.duration)[0] == pytest.approx(p, abs=1e-12 * scale * (1.0 + stop.duration))
 
 
 @given(speed, share, bound, jerk)
 def test_no_stop_is_shorter(v: float, k: float, a_max: float, j_max: float) -> None:
     stop = Stop.plan(v, k * a_max, a_max, j_max)
-    assert stop.duration == pytest.approx(shortest_by_ruckig(v, k * a_max, a_max, j_max), rel=1e-7, abs=1e-7)
+    assert stop.duration == pytest.approx(
+        shortest_by_ruckig(v, k * a_max, a_max, j_max), rel=1e-7, abs=1e-7
+    )
 
 
 def test_no_stop_is_shorter_by_brute_force() -> None:
@@ -93,7 +108,9 @@ def test_no_stop_is_shorter_by_brute_force() -> None:
 
 
 @given(speed, share, bound, jerk, st.floats(0.0, 1.2))
-def test_at_follows_the_simulation(v: float, k: float, a_max: float, j_max: float, when: float) -> None:
+def test_at_follows_the_simulation(
+    v: float, k: float, a_max: float, j_max: float, when: float
+) -> None:
     stop = Stop.plan(v, k * a_max, a_max, j_max)
     t, p, speeds, accelerations = simulate(stop, 200)
     now = when * stop.duration
@@ -106,7 +123,9 @@ def test_at_follows_the_simulation(v: float, k: float, a_max: float, j_max: floa
 
 
 @given(speed, share, bound, jerk)
-def test_span_holds_every_point_of_the_way_and_no_more(v: float, k: float, a_max: float, j_max: float) -> None:
+def test_span_holds_every_point_of_the_way_and_no_more(
+    v: float, k: float, a_max: float, j_max: float
+) -> None:
     stop = Stop.plan(v, k * a_max, a_max, j_max)
     low, high = stop.span()
     p = np.array([stop.at(t)[0] for t in np.linspace(0.0, stop.duration, 400)])
@@ -129,14 +148,20 @@ def test_span_of_a_stop_that_first_runs_backwards() -> None:
 
 
 @given(speed, share, bound, jerk, st.floats(0.0, 1.0))
-def test_the_rest_of_a_stop_is_the_stop_of_its_rest(v: float, k: float, a_max: float, j_max: float, when: float) -> None:
+def test_the_rest_of_a_stop_is_the_stop_of_its_rest(
+    v: float, k: float, a_max: float, j_max: float, when: float
+) -> None:
     """What keeps the stage inside its rails for ever: one tick along a certified stop is a certified state."""
     stop = Stop.plan(v, k * a_max, a_max, j_max)
     p, v1, a1 = stop.at(when * stop.duration)
     rest = Stop.plan(v1, min(max(a1, -a_max), a_max), a_max, j_max)
     scale = abs(v) * stop.duration + a_max * stop.duration**2 + 1e-9
-    assert rest.duration == pytest.approx((1.0 - when) * stop.duration, abs=1e-6 * stop.duration + 1e-6)
-    assert p + rest.at(rest.duration)[0] == pytest.approx(stop.at(stop.duration)[0], abs=1e-9 * scale)
+    assert rest.duration == pytest.approx(
+        (1.0 - when) * stop.duration, abs=1e-6 * stop.duration + 1e-6
+    )
+    assert p + rest.at(rest.duration)[0] == pytest.approx(
+        stop.at(stop.duration)[0], abs=1e-9 * scale
+    )
     low, high = stop.span()
     assert p + rest.span()[0] >= low - 1e-9 * scale
     assert p + rest.span()[1] <= high + 1e-9 * scale
@@ -152,20 +177,30 @@ def test_standing_still_is_a_stop(v: float) -> None:
 
 @given(speed, share, bound, jerk)
 def test_stop_bound_holds_the_span(v: float, k: float, a_max: float, j_max: float) -> None:
-    """By the simulated way, not by the span itself; and not so loose that it never settles anything."""
+    """By the simulated way, not by the span itself.
+
+    And not so loose that it never settles anything.
+    """
     p = simulate(Stop.plan(v, k * a_max, a_max, j_max), 200)[1]
     assert np.max(np.abs(p)) <= stop_bound(v, k * a_max, a_max, j_max) * (1.0 + 1e-9) + 1e-12
-    assert stop_bound(v, 0.0, a_max, j_max) <= 0.5 * abs(v) * (abs(v) / a_max + a_max / j_max) * (1.0 + 1e-9) + 1e-300
+    assert (
+        stop_bound(v, 0.0, a_max, j_max)
+        <= 0.5 * abs(v) * (abs(v) / a_max + a_max / j_max) * (1.0 + 1e-9) + 1e-300
+    )
 
 
 distances = st.floats(1e-9, 1e3)
 gains = st.floats(0.1, 1e3)
 
 
-def three_laws(distance: float, gain: float, a_max: float, j_max: float) -> tuple[float, float, float]:
+def three_laws(
+    distance: float, gain: float, a_max: float, j_max: float
+) -> tuple[float, float, float]:
     """Speeds by the gain, by the acceleration and by the jerk-limited stop, the last by bisection of `Stop`."""
     corner = a_max / gain**2
-    by_acceleration = gain * distance if distance <= corner else np.sqrt(2.0 * a_max * (distance - 0.5 * corner))
+    by_acceleration = (
+        gain * distance if distance <= corner else np.sqrt(2.0 * a_max * (distance - 0.5 * corner))
+    )
     low, high = 0.0, 1.0 + np.sqrt(2.0 * a_max * distance) + (j_max * distance**2) ** (1.0 / 3.0)
     for _ in range(80):
         middle = 0.5 * (low + high)
@@ -175,7 +210,9 @@ def three_laws(distance: float, gain: float, a_max: float, j_max: float) -> tupl
 
 
 @given(distances, gains, bound, jerk)
-def test_approach_is_the_least_of_its_three_laws(distance: float, gain: float, a_max: float, j_max: float) -> None:
+def test_approach_is_the_least_of_its_three_laws(
+    distance: float, gain: float, a_max: float, j_max: float
+) -> None:
     closing, _ = approach(distance, gain, a_max, j_max)
     assert closing == pytest.approx(min(three_laws(distance, gain, a_max, j_max)), rel=1e-7)
 
@@ -194,7 +231,9 @@ def test_approach_stops_within_the_distance_and_brakes_within_its_acceleration(
 
 
 @given(distances, gains, bound, jerk)
-def test_the_slope_of_the_approach_is_its_derivative(distance: float, gain: float, a_max: float, j_max: float) -> None:
+def test_the_slope_of_the_approach_is_its_derivative(
+    distance: float, gain: float, a_max: float, j_max: float
+) -> None:
     h = 1e-5 * distance
     slope = approach(distance, gain, a_max, j_max)[1]
     either_side = [approach(distance + s * h, gain, a_max, j_max) for s in (-1.0, 1.0)]
@@ -211,7 +250,9 @@ def test_the_approach_has_no_jump_anywhere(gain: float, a_max: float, j_max: flo
         below, above = (approach(corner * k, gain, a_max, j_max) for k in (1.0 - 1e-9, 1.0 + 1e-9))
         assert below[0] == pytest.approx(above[0], rel=1e-7)
     if a_max / gain**2 < 0.9 * j_max / gain**3 and gain * a_max < 0.9 * j_max:
-        below, above = (approach(corners[0] * k, gain, a_max, j_max) for k in (1.0 - 1e-9, 1.0 + 1e-9))
+        below, above = (
+            approach(corners[0] * k, gain, a_max, j_max) for k in (1.0 - 1e-9, 1.0 + 1e-9)
+        )
         assert below[1] == pytest.approx(above[1], rel=1e-6)
 
 
@@ -226,7 +267,9 @@ def test_approach_at_the_end_and_where_the_acceleration_saturates() -> None:
 
 @pytest.mark.parametrize("gain", [1.0, 4.0, 10.0])
 @pytest.mark.parametrize("start", [0.3, 2.0, 100.0])
-def test_a_run_down_the_approach_arrives_and_brakes_within_the_acceleration(gain: float, start: float) -> None:
+def test_a_run_down_the_approach_arrives_and_brakes_within_the_acceleration(
+    gain: float, start: float
+) -> None:
     """e' = -g(e) decelerates with g g', and uses most of what it may."""
     e, h, worst, before = start, 1e-3, 0.0, approach(start, gain, 3.0, 30.0)[0]
     for _ in range(30000):

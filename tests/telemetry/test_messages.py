@@ -43,7 +43,15 @@ def test_a_change_of_state() -> None:
 
 @pytest.mark.parametrize(
     "text",
-    ["x" * 100_000, "\x00" * 500, '"\\' * 400, "\U0001f6e9" * 500, "é" * 300, "\ud800" * 300, "\x7f\x1b[31m\n" * 90],
+    [
+        "x" * 100_000,
+        "\x00" * 500,
+        '"\\' * 400,
+        "\U0001f6e9" * 500,
+        "é" * 300,
+        "\ud800" * 300,
+        "\x7f\x1b[31m\n" * 90,
+    ],
     ids=["long", "control", "escapes", "four bytes", "two bytes", "surrogates", "terminal"],
 )
 def test_odd_texts_keep_their_beginning(text: str) -> None:
@@ -59,7 +67,11 @@ def test_what_fits_is_kept_whole() -> None:
 
 
 @settings(max_examples=60)
-@given(st.text(st.characters(), max_size=600), st.text(st.characters(), max_size=600), st.floats(0.0, 1e9))
+@given(
+    st.text(st.characters(), max_size=600),
+    st.text(st.characters(), max_size=600),
+    st.floats(0.0, 1e9),
+)
 def test_any_text(state: str, reason: str, time: float) -> None:
     back = told(state, reason, time)
     assert back.time == time

@@ -15,7 +15,9 @@ def test_nothing_is_pressed_at_first() -> None:
 
 
 @given(st.lists(st.lists(st.sampled_from(BUTTONS), max_size=4), max_size=8))
-def test_what_was_pressed_since_the_last_call_is_told_once_and_in_order(bursts: list[list[str]]) -> None:
+def test_what_was_pressed_since_the_last_call_is_told_once_and_in_order(
+    bursts: list[list[str]],
+) -> None:
     buttons = OperatorButtons()
     for burst in bursts:
         for name in burst:

@@ -43,9 +43,26 @@ class TestWhoIsAdmitted:
     @pytest.mark.parametrize(
         "origin",
         [
-            *("https://evil.example", "null", "", "https://app.example.org.evil.example", "https://app.example.org:81"),
-            *("http://app.example.org", "http://localhost.evil.example", "http://localhost@evil.example", "http://127.0.0.1x"),
-            *("http://127.0.0.1:80:80", "http://127a0b0c1", "http://localhost:", "file://x", "http://localhost/x"),
+            *(
+                "https://evil.example",
+                "null",
+                "",
+                "https://app.example.org.evil.example",
+                "https://app.example.org:81",
+            ),
+            *(
+                "http://app.example.org",
+                "http://localhost.evil.example",
+                "http://localhost@evil.example",
+                "http://127.0.0.1x",
+            ),
+            *(
+                "http://127.0.0.1:80:80",
+                "http://127a0b0c1",
+                "http://localhost:",
+                "file://x",
+                "http://localhost/x",
+            ),
         ],
     )
     def test_no_other_page(self, origin: str) -> None:
@@ -105,7 +122,9 @@ class TestTheRelay:
 
     def test_there_are_not_ever_more_clients(self) -> None:
         async def talk(port: int) -> None:
-            clients = [await asyncio.open_connection("127.0.0.1", port) for _ in range(MOST_CLIENTS)]
+            clients = [
+                await asyncio.open_connection("127.0.0.1", port) for _ in range(MOST_CLIENTS)
+            ]
             for reader, writer in clients:
                 writer.write(REQUEST)
                 await reader.readexactly(len(REQUEST))

@@ -77,7 +77,10 @@ def test_a_message_that_is_being_written_is_not_read() -> None:
 
 
 def test_a_reader_in_another_process_never_sees_a_torn_message() -> None:
-    """The writer laps a small ring as fast as it can; every message holds one number, over and over."""
+    """The writer laps a small ring as fast as it can.
+
+    Every message holds one number, over and over.
+    """
     ring = Ring(16, 512)
     process = get_context("fork").Process(target=_write_all, args=(ring, 50_000))
     reader = RingReader(ring)

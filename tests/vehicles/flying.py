@@ -13,7 +13,9 @@ from atlas_cueing.vehicles import AircraftFlight, InitialConditions, TimedInput
 CRUISE = InitialConditions(altitude=1500.0, airspeed=55.0, trim=True)
 
 
-def cessna(*inputs: TimedInput, duration: float = 2.0, initial: InitialConditions = CRUISE) -> AircraftFlight:
+def cessna(
+    *inputs: TimedInput, duration: float = 2.0, initial: InitialConditions = CRUISE
+) -> AircraftFlight:
     """A Cessna 172 in level flight, with timed inputs."""
     return AircraftFlight("c172x", initial, inputs, duration=duration)
 
@@ -26,7 +28,13 @@ def fly(vehicle: Vehicle) -> list[VehicleState]:
     return states
 
 
-def write_script(path: Path, events: str = "", extra: str = "", aircraft: str = "c172x", initialize: str = "reset01") -> Path:
+def write_script(
+    path: Path,
+    events: str = "",
+    extra: str = "",
+    aircraft: str = "c172x",
+    initialize: str = "reset01",
+) -> Path:
     """A JSBSim script of 2 s at 100 Hz with these events, and with extra elements beside its run."""
     path.write_text(
         f'<runscript name="test"><use aircraft="{aircraft}" initialize="{initialize}"/>{extra}'
@@ -37,9 +45,14 @@ def write_script(path: Path, events: str = "", extra: str = "", aircraft: str = 
 
 def event(name: str, value: str, time: float = 0.5) -> str:
     """A script's event that sets a property at `time` (s) to a number or to what a function element says."""
-    inside = f' value="{value}"/>' if not value.startswith("<") else f"><function>{value}</function></set>"
+    inside = (
+        f' value="{value}"/>'
+        if not value.startswith("<")
+        else f"><function>{value}</function></set>"
+    )
     return (
-        f'<event name="e"><condition>simulation/sim-time-sec ge {time}</condition><set name="{name}"{inside}<notify/></event>'
+        f'<event name="e"><condition>simulation/sim-time-sec ge {time}</condition><set'
+        f' name="{name}"{inside}<notify/></event>'
     )
 
 

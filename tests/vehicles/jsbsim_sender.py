@@ -16,7 +16,11 @@ from atlas_cueing.vehicles.jsbsim.start import initialise
 NAMES = {
     "rates": ("velocities/p-rad_sec", "velocities/q-rad_sec", "velocities/r-rad_sec"),
     "force": tuple(f"accelerations/a-pilot-{axis}-ft_sec2" for axis in "xyz"),
-    "place": ("position/radius-to-vehicle-ft", "position/lat-gc-rad", "accelerations/gravity-ft_sec2"),
+    "place": (
+        "position/radius-to-vehicle-ft",
+        "position/lat-gc-rad",
+        "accelerations/gravity-ft_sec2",
+    ),
     "theta": ("attitude/theta-rad",),
 }
 
@@ -28,7 +32,10 @@ def main() -> None:
     fdm = load(ScriptFlight(own_scripts()[script]))
     with TemporaryDirectory() as folder:
         output = Path(folder) / "output.xml"
-        output.write_text(f'<output name="127.0.0.1" type="FLIGHTGEAR" port="{port}" protocol="UDP" rate="1000"></output>')
+        output.write_text(
+            f'<output name="127.0.0.1" type="FLIGHTGEAR" port="{port}" protocol="UDP"'
+            ' rate="1000"></output>'
+        )
         rate = 1.0 / fdm.get_delta_t()
         output.write_text(output.read_text().replace("1000", f"{rate:.6f}"))
         fdm.set_output_directive(str(output))

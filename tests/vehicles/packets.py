@@ -30,7 +30,10 @@ def packet(
 
 
 def euler_rates(euler: Three, body: Three) -> tuple[float, float, float]:
-    """Rates of phi, theta, psi from body rates p, q, r: the inverse of what a decoder does, by the textbook's own matrix."""
+    """Rates of phi, theta, psi from body rates p, q, r.
+
+    The inverse of what a decoder does, by the textbook's own matrix.
+    """
     phi, theta, _ = euler
     p, q, r = body
     turn = q * sin(phi) + r * cos(phi)

@@ -28,10 +28,17 @@ def test_each_bound_is_inclusive_and_named_with_its_value() -> None:
     bounds = Bounds(force=100.0, rate=3.0, depth=2.0, height=500.0)
     assert bounds.objection(with_(f=100.0), 500.0) == ""
     assert bounds.objection(with_(w=3.0), -2.0) == ""
-    assert bounds.objection(with_(f=100.1), 0.0) == "specific force 100.1 m/s^2, allowed: 0 <= force <= 100"
+    assert (
+        bounds.objection(with_(f=100.1), 0.0)
+        == "specific force 100.1 m/s^2, allowed: 0 <= force <= 100"
+    )
     assert bounds.objection(with_(w=3.1), 0.0) == "body rate 3.1 rad/s, allowed: 0 <= rate <= 3"
-    assert bounds.objection(CALM, -2.1) == "height above ground -2.1 m, allowed: -2 <= height <= 500"
-    assert bounds.objection(CALM, 500.1) == "height above ground 500.1 m, allowed: -2 <= height <= 500"
+    assert (
+        bounds.objection(CALM, -2.1) == "height above ground -2.1 m, allowed: -2 <= height <= 500"
+    )
+    assert (
+        bounds.objection(CALM, 500.1) == "height above ground 500.1 m, allowed: -2 <= height <= 500"
+    )
 
 
 def test_the_magnitude_counts_not_the_components() -> None:

@@ -39,8 +39,15 @@ class Sender:
         self.socket.bind(("127.0.0.1", 0))
         self.socket.setblocking(False)
         port = self.socket.getsockname()[1]
-        command = [sys.executable, str(Path(__file__).with_name("jsbsim_sender.py")), script, str(port)]
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        command = [
+            sys.executable,
+            str(Path(__file__).with_name("jsbsim_sender.py")),
+            script,
+            str(port),
+        ]
+        self.process = subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        )
 
     def fly(self, steps: int) -> tuple[bytes, dict[str, Any]]:
         """The packet of the last of so many steps, and what JSBSim says of the same step."""
@@ -88,7 +95,9 @@ def test_jsbsims_own_packets_say_what_its_properties_say(sender: Sender) -> None
         assert state.w_NB_B == pytest.approx(told["rates"], rel=coarseness, abs=coarseness)
         distance, latitude, gravitation = told["place"]
         gravity = gravitation - EARTH_RATE**2 * distance * cos(latitude) ** 2
-        assert state.f_B == pytest.approx(np.array(told["force"]) * G0 / gravity, rel=1e-4, abs=1e-4)
+        assert state.f_B == pytest.approx(
+            np.array(told["force"]) * G0 / gravity, rel=1e-4, abs=1e-4
+        )
         moved = max(moved, mine.magnitude())
     assert moved > 0.05  # it was not the start all the time
 
@@ -109,7 +118,9 @@ def test_rates_and_attitude_come_back(seed: int) -> None:
 
 @pytest.mark.parametrize("latitude", [-1.2, 0.0, 0.7, 0.5 * pi])
 @pytest.mark.parametrize("altitude", [-400.0, 0.0, 3000.0, 12000.0])
-def test_a_vehicle_at_rest_shows_standard_gravity_anywhere(latitude: float, altitude: float) -> None:
+def test_a_vehicle_at_rest_shows_standard_gravity_anywhere(
+    latitude: float, altitude: float
+) -> None:
     """Gravitation (with the Earth's oblateness, J2) and centrifugal force, by potential theory and not by the formula."""
     a, f, gm, j2 = 6378137.0, 1.0 / 298.257223563, 3.986004418e14, 1.082629821e-3
     e2 = f * (2.0 - f)
@@ -120,7 +131,8 @@ def test_a_vehicle_at_rest_shows_standard_gravity_anywhere(latitude: float, alti
     gx = common * x * (1.0 + oblate * (1.0 - 5.0 * z * z / r2)) - EARTH_RATE**2 * x
     gz = common * z * (1.0 + oblate * (3.0 - 5.0 * z * z / r2))
     gravity = float(np.hypot(gx, gz))
-    assert normal_gravity(latitude, altitude) == pytest.approx(gravity, abs=1.5e-4)  # what J4 adds at the poles
+    # what J4 adds at the poles
+    assert normal_gravity(latitude, altitude) == pytest.approx(gravity, abs=1.5e-4)
     state = read(packet(position=(0.1, latitude, altitude), force=(0.0, 0.0, -gravity / FOOT)))
     assert state.f_B == pytest.approx((0.0, 0.0, -G0), abs=3e-4)
 

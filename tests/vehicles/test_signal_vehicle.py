@@ -24,7 +24,9 @@ from atlas_cueing.vehicles.signal_vehicle import (
 from .flying import fly
 
 SINE = Signal("pitch_rate", "sine", 0.2, time=0.5, duration=8.0, ramp=1.0, frequency=3.0)
-SWEEP = Signal("pitch_rate", "sweep", 0.2, time=0.5, duration=8.0, ramp=1.0, frequency=0.5, end_frequency=12.0)
+SWEEP = Signal(
+    "pitch_rate", "sweep", 0.2, time=0.5, duration=8.0, ramp=1.0, frequency=0.5, end_frequency=12.0
+)
 STEP = Signal("pitch_rate", "step", 0.2, time=0.5, duration=8.0, ramp=1.0)
 DOUBLET = Signal("pitch_rate", "doublet", 0.2, time=0.5, duration=8.0, ramp=1.0)
 EACH = pytest.mark.parametrize("signal", [SINE, SWEEP, STEP, DOUBLET], ids=SHAPES)
@@ -34,13 +36,18 @@ def sampled(signal: Signal, dt: float, end: float = 10.0) -> NDArray[np.float64]
     return np.array([signal.value(n * dt) for n in range(round(end / dt) + 1)])
 
 
-def vehicle(*signals: Signal, rate_hz: float = 120.0, duration: float | None = None, follows: bool = True) -> SignalVehicle:
+def vehicle(
+    *signals: Signal, rate_hz: float = 120.0, duration: float | None = None, follows: bool = True
+) -> SignalVehicle:
     return SignalVehicle(SignalFlight(signals, rate_hz, duration, follows))
 
 
 @EACH
 def test_nothing_jumps(signal: Signal) -> None:
-    """Two continuous derivatives: the second difference settles when the step is halved; at a kink it would double."""
+    """Two continuous derivatives: the second difference settles when the step is halved.
+
+    At a kink it would double.
+    """
     coarse, fine = (np.abs(np.diff(sampled(signal, dt), 2)).max() / dt**2 for dt in (2e-3, 1e-3))
     assert fine == pytest.approx(coarse, rel=0.05)
     third = [np.abs(np.diff(sampled(signal, dt), 3)).max() / dt**3 for dt in (2e-3, 1e-3)]
@@ -74,8 +81,12 @@ def test_a_sweep_between_equal_frequencies_is_a_sine() -> None:
 
 
 def test_areas() -> None:
-    assert quad(STEP.value, 0.0, 10.0, points=[0.5, 1.5, 7.5, 8.5])[0] == pytest.approx(0.2 * (8.0 - 1.0))
-    assert quad(DOUBLET.value, 0.0, 10.0, points=[0.5, 4.5, 8.5], limit=200)[0] == pytest.approx(0.0, abs=1e-9)
+    assert quad(STEP.value, 0.0, 10.0, points=[0.5, 1.5, 7.5, 8.5])[0] == pytest.approx(
+        0.2 * (8.0 - 1.0)
+    )
+    assert quad(DOUBLET.value, 0.0, 10.0, points=[0.5, 4.5, 8.5], limit=200)[0] == pytest.approx(
+        0.0, abs=1e-9
+    )
 
 
 @EACH
@@ -84,10 +95,18 @@ def test_the_attitude_is_the_integral_of_the_rate(signal: Signal, axis: SignalAx
     states = fly(vehicle(replace(signal, axis=axis)))
     index = RATE_AXES.index(axis)
     for state in states[:: len(states) // 7]:
-        angle, _ = quad(signal.value, 0.0, state.time, points=[p for p in (0.5, 1.5, 4.5, 7.5) if p < state.time], limit=400)
+        angle, _ = quad(
+            signal.value,
+            0.0,
+            state.time,
+            points=[p for p in (0.5, 1.5, 4.5, 7.5) if p < state.time],
+            limit=400,
+        )
         turned = Rotation.from_rotvec(angle * np.eye(3)[index]).as_quat(scalar_first=True)
         assert geodesic(state.q_NB, tuple(turned)) < 2e-8
-        assert state.w_NB_B == tuple(signal.value(state.time) if i == index else 0.0 for i in range(3))
+        assert state.w_NB_B == tuple(
+            signal.value(state.time) if i == index else 0.0 for i in range(3)
+        )
 
 
 def test_few_steps_a_period_are_enough() -> None:
@@ -102,7 +121,9 @@ def three_axes() -> tuple[Signal, ...]:
     """Large turns about all axes at once."""
     return tuple(
         Signal(axis, "sine", amplitude, time=0.0, duration=10.0, ramp=1.0, frequency=frequency)
-        for axis, amplitude, frequency in zip(RATE_AXES, (2.0, -1.0, 1.5), (2.0, 3.0, 5.0), strict=True)
+        for axis, amplitude, frequency in zip(
+            RATE_AXES, (2.0, -1.0, 1.5), (2.0, 3.0, 5.0), strict=True
+        )
     )
 
 
@@ -111,10 +132,20 @@ def integrated(signals: tuple[Signal, ...], time: float) -> Rotation:
 
     def slope(t: float, flat: NDArray[np.float64]) -> NDArray[np.float64]:
         x, y, z = (sum(s.value(t) for s in signals if s.axis == axis) for axis in RATE_AXES)
-        matrix: NDArray[np.float64] = flat.reshape(3, 3) @ np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+        matrix: NDArray[np.float64] = flat.reshape(3, 3) @ np.array(
+            [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]
+        )
         return matrix.ravel()
 
-    solution = solve_ivp(slope, (0.0, time), np.eye(3).ravel(), method="DOP853", rtol=1e-11, atol=1e-11, max_step=0.05)
+    solution = solve_ivp(
+        slope,
+        (0.0, time),
+        np.eye(3).ravel(),
+        method="DOP853",
+        rtol=1e-11,
+        atol=1e-11,
+        max_step=0.05,
+    )
     return Rotation.from_matrix(solution.y[:, -1].reshape(3, 3))
 
 
@@ -130,7 +161,9 @@ def test_three_axes_at_once() -> None:
 def test_signals_of_one_axis_add_up() -> None:
     both = fly(vehicle(SINE, replace(STEP, amplitude=0.1)))
     for state in both[::100]:
-        assert state.w_NB_B[1] == pytest.approx(SINE.value(state.time) + 0.5 * STEP.value(state.time))
+        assert state.w_NB_B[1] == pytest.approx(
+            SINE.value(state.time) + 0.5 * STEP.value(state.time)
+        )
 
 
 @pytest.mark.parametrize("follows", [True, False])
@@ -139,7 +172,11 @@ def test_specific_force(follows: bool) -> None:
     pushes = [replace(SINE, axis=axis, amplitude=1.0 + i) for i, axis in enumerate(FORCE_AXES)]
     for state in fly(vehicle(*three_axes(), *pushes, follows=follows))[::50]:
         attitude = Rotation.from_quat(state.q_NB, scalar_first=True)
-        gravity = attitude.inv().apply([0.0, 0.0, -STANDARD_GRAVITY]) if follows else np.array([0.0, 0.0, -STANDARD_GRAVITY])
+        gravity = (
+            attitude.inv().apply([0.0, 0.0, -STANDARD_GRAVITY])
+            if follows
+            else np.array([0.0, 0.0, -STANDARD_GRAVITY])
+        )
         asked = [push.value(state.time) for push in pushes]
         np.testing.assert_allclose(np.array(state.f_B) - gravity, asked, atol=1e-12)
 
@@ -168,7 +205,8 @@ def test_a_duration_counts_in_steps() -> None:
     assert len(fly(vehicle(SINE, rate_hz=100.0, duration=0.29))) == 30  # 0.29 * 100 is less than 29
     assert len(fly(vehicle(SINE, rate_hz=10.0, duration=0.3))) == 4
     assert len(fly(vehicle(SINE, rate_hz=10.0, duration=0.39))) == 4
-    assert len(fly(SignalVehicle(SignalFlight((), None, 0.5)))) == 61  # the default rate; no signals, no motion
+    # the default rate; no signals, no motion
+    assert len(fly(SignalVehicle(SignalFlight((), None, 0.5)))) == 61
 
 
 def test_many_turns_keep_unit_and_sign() -> None:
@@ -199,11 +237,23 @@ def test_what_nobody_rides_in_ends_the_flight() -> None:
         ({"duration": 0.0}, "duration = 0, allowed: finite, 0 < duration"),
         ({"duration": inf}, "duration = inf"),
         ({"ramp": 0.0}, "ramp = 0, allowed: finite, 0 < ramp"),
-        ({"ramp": 4.1}, r"the ramps of a sine of 8 s must fit into it: ramp = 4.1 s, allowed: 0 < ramp <= 4"),
-        ({"shape": "doublet", "ramp": 2.1}, "of a doublet of 8 s must fit into it: ramp = 2.1 s, allowed: 0 < ramp <= 2"),
+        (
+            {"ramp": 4.1},
+            r"the ramps of a sine of 8 s must fit into it: ramp = 4.1 s, allowed: 0 < ramp <= 4",
+        ),
+        (
+            {"shape": "doublet", "ramp": 2.1},
+            "of a doublet of 8 s must fit into it: ramp = 2.1 s, allowed: 0 < ramp <= 2",
+        ),
         ({"frequency": 0.0}, "frequency = 0, allowed: finite, 0 < frequency"),
         ({"shape": "sweep"}, "end_frequency = 0, allowed: finite, 0 < end_frequency"),
-        ({"frequency": 100.0}, r"frequency 100 rad/s at 120 Hz, allowed: 0 < frequency <= 94.2478 \(8 steps a period\)"),
+        (
+            {"frequency": 100.0},
+            (
+                r"frequency 100 rad/s at 120 Hz, allowed: 0 < frequency <= 94.2478 \(8 steps a"
+                r" period\)"
+            ),
+        ),
         ({"shape": "sweep", "end_frequency": 100.0}, "frequency 100 rad/s at 120 Hz"),
     ],
 )

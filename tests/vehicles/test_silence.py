@@ -24,7 +24,9 @@ for argument in sys.argv[2:]:
 """
 
 
-def fly_elsewhere(folder: Path, duration: float, scripts: list[Path]) -> subprocess.CompletedProcess[bytes]:
+def fly_elsewhere(
+    folder: Path, duration: float, scripts: list[Path]
+) -> subprocess.CompletedProcess[bytes]:
     """Fly scripts in a process of its own that works in `folder` and keeps its temporary files in `folder`/temporary."""
     (folder / "temporary").mkdir()
     command = [sys.executable, "-W", "error", "-c", FLY, str(duration), *map(str, scripts)]
@@ -33,7 +35,9 @@ def fly_elsewhere(folder: Path, duration: float, scripts: list[Path]) -> subproc
 
 
 def left_in(folder: Path) -> list[str]:
-    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.name != "temporary")
+    return sorted(
+        str(path.relative_to(folder)) for path in folder.rglob("*") if path.name != "temporary"
+    )
 
 
 def test_no_own_script_prints_or_leaves_a_file(tmp_path: Path) -> None:
@@ -43,8 +47,14 @@ def test_no_own_script_prints_or_leaves_a_file(tmp_path: Path) -> None:
 
 
 def test_what_would_print_or_write_later_is_silent_too(tmp_path: Path) -> None:
-    # notifications, trims in mid-run, a linearisation (which writes 737_lin.sce), outputs switched on and off
-    names = ["c172_elevator_doublet", "737_cruise_steady_turn_linearize", "c1723", "Test_F450_Launch"]
+    # notifications, trims in mid-run, a linearisation (which writes 737_lin.sce), outputs switched
+    # on and off
+    names = [
+        "c172_elevator_doublet",
+        "737_cruise_steady_turn_linearize",
+        "c1723",
+        "Test_F450_Launch",
+    ]
     done = fly_elsewhere(tmp_path, 22.0, [own_scripts()[name] for name in names])
     assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")
     assert left_in(tmp_path) == []
@@ -58,7 +68,9 @@ def test_a_users_script_cannot_write_files_either(tmp_path: Path) -> None:
         '<output name="here.csv" type="CSV" rate="10"><rates>ON</rates></output>'
         '<output type="TERMINAL" rate="10"><rates>ON</rates></output>'
     )
-    events = event("simulation/write-state-file", "1", 0.3) + event("simulation/do_linearization", "0", 0.6)
+    events = event("simulation/write-state-file", "1", 0.3) + event(
+        "simulation/do_linearization", "0", 0.6
+    )
     script = write_script(tmp_path / "s.xml", events, outputs)
     done = fly_elsewhere(work, 2.0, [script])
     assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")
@@ -67,7 +79,9 @@ def test_a_users_script_cannot_write_files_either(tmp_path: Path) -> None:
 
 def test_errors_that_jsbsim_reports_are_silent_too(tmp_path: Path) -> None:
     # with the stick held back there is nothing to trim, and JSBSim says so at length
-    events = event("fcs/elevator-cmd-norm", "-1", 0.1) + event("simulation/do_simple_trim", "1", 0.3)
+    events = event("fcs/elevator-cmd-norm", "-1", 0.1) + event(
+        "simulation/do_simple_trim", "1", 0.3
+    )
     script = write_script(tmp_path / "s.xml", events)
     done = fly_elsewhere(tmp_path, 2.0, [script])
     assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")
@@ -81,8 +95,9 @@ def sockets() -> int:
 
 def test_no_socket_is_opened(tmp_path: Path) -> None:
     ports = (
-        '<output name="127.0.0.1" type="SOCKET" protocol="UDP" port="45997" rate="10"><rates>ON</rates></output>'
-        '<output name="127.0.0.1" type="FLIGHTGEAR" protocol="UDP" port="45996" rate="10"/><input port="45998"/>'
+        '<output name="127.0.0.1" type="SOCKET" protocol="UDP" port="45997"'
+        ' rate="10"><rates>ON</rates></output><output name="127.0.0.1" type="FLIGHTGEAR"'
+        ' protocol="UDP" port="45996" rate="10"/><input port="45998"/>'
     )
     before = sockets()
     users = JsbsimVehicle(ScriptFlight(write_script(tmp_path / "s.xml", "", ports)))

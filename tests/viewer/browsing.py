@@ -7,10 +7,17 @@ from typing import Any
 
 import pytest
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+CHROMIUM = (
+    shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+)
 PATIENCE = 120_000  # ms; software rendering on a busy machine
 # No sandbox: a container seldom has one. Rendering in software: there may be no graphics card.
-ARGUMENTS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+ARGUMENTS = [
+    "--no-sandbox",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+]
 
 needs_browser = pytest.mark.skipif(
     CHROMIUM is None, reason="no browser: chromium is missing (Debian: apt-get install chromium)"
@@ -20,9 +27,13 @@ needs_browser = pytest.mark.skipif(
 @contextmanager
 def launched() -> Iterator[Any]:
     """Chromium without a window."""
-    sync_api = pytest.importorskip("playwright.sync_api", reason="no browser driver: pip install playwright")
+    sync_api = pytest.importorskip(
+        "playwright.sync_api", reason="no browser driver: pip install playwright"
+    )
     with sync_api.sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS, timeout=PATIENCE)
+        chromium = playwright.chromium.launch(
+            executable_path=CHROMIUM, args=ARGUMENTS, timeout=PATIENCE
+        )
         yield chromium
         chromium.close()
 
@@ -49,11 +60,15 @@ class Opened:
         assert self.errors == []
 
     def check_drawn(self) -> None:
-        """The scene has many colours, some of the sphere's sky and earth: polled, for drawing in software takes its time."""
+        """The scene has many colours, some of the sphere's sky and earth.
+
+        Polled, for drawing in software takes its time.
+        """
         self.page.wait_for_function(_DRAWN, polling=500)
 
 
-# The canvas is read back through a copy in two dimensions; a WebGL canvas is blank but in the turn that drew it.
+# The canvas is read back through a copy in two dimensions; a WebGL canvas is blank but in the turn
+# that drew it.
 _DRAWN = """() => new Promise(resolve => requestAnimationFrame(() => requestAnimationFrame(() => {
     const colours = new Set();
     for (const scene of document.querySelectorAll('canvas')) {

@@ -38,7 +38,9 @@ def test_a_live_run(browser: Any, platform: Platform) -> None:
         pressed: list[str] = []
         until(lambda: pressed.extend(buttons.edges()) or bool(pressed), 0.001 * PATIENCE)
         assert pressed == ["hold"]
-        page.wait_for_function("document.querySelector('#note')?.textContent == 'hold asked at 1.0 s'")
+        page.wait_for_function(
+            "document.querySelector('#note')?.textContent == 'hold asked at 1.0 s'"
+        )
         os.kill(viewer.pid or 0, signal.SIGSTOP)
         for k in range(2 * ring.slots):
             writer.tick(*live_tick(2.0 + k / 200.0))
@@ -59,7 +61,9 @@ def test_a_replay_plays(browser: Any, run: RecordedRun, tmp_path: Path) -> None:
     clock = page.wait_for_selector("input")
     page.wait_for_function("document.querySelector('input').value != ''", polling=200)
     before = float(clock.input_value())
-    page.wait_for_function(f"Number(document.querySelector('input').value) != {before}", polling=200)
+    page.wait_for_function(
+        f"Number(document.querySelector('input').value) != {before}", polling=200
+    )
     opened.check_drawn()
     opened.check_alone()
     page.close()
@@ -68,13 +72,19 @@ def test_a_replay_plays(browser: Any, run: RecordedRun, tmp_path: Path) -> None:
 def test_a_log_is_played(browser: Any, run: RecordedRun) -> None:
     told: list[str] = []
     enough = Event()
-    player = Thread(target=play, args=(run.platform, run.flight, told.append), kwargs={"go_on": lambda: not enough.is_set()})
+    player = Thread(
+        target=play,
+        args=(run.platform, run.flight, told.append),
+        kwargs={"go_on": lambda: not enough.is_set()},
+    )
     player.start()
     try:
         until(lambda: bool(told), 60.0)
         opened = Opened(browser, told[0])
         page = opened.page
-        page.get_by_role("button", name="Play").or_(page.get_by_role("button", name="Pause")).wait_for()
+        page.get_by_role("button", name="Play").or_(
+            page.get_by_role("button", name="Pause")
+        ).wait_for()
         page.get_by_role("button", name="Play").click()  # by now it has come to its end
         page.get_by_role("button", name="Pause").wait_for()
         opened.check_drawn()

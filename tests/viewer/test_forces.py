@@ -36,7 +36,9 @@ def test_the_largest_counts_every_row_that_is_a_force() -> None:
     assert largest_g(pilot[1:], felt[:0]) == 0.0
 
 
-def test_a_known_flight_sets_the_scale(server: Any, run: RecordedRun, monkeypatch: pytest.MonkeyPatch, tmp_path: Any) -> None:
+def test_a_known_flight_sets_the_scale(
+    server: Any, run: RecordedRun, monkeypatch: pytest.MonkeyPatch, tmp_path: Any
+) -> None:
     """Of the play page and of the replay file."""
     strong = run.flight.vehicle_f_B.copy()
     strong[40] = (0.0, 0.0, -5.0 * 9.80665)

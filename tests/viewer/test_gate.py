@@ -22,8 +22,9 @@ from atlas_cueing.viewer.server import close_server, open_server
 
 SPEAKS = f"viser-v{viser.__version__}"
 HANDSHAKE = (
-    "GET / HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-    f"Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Protocol: {SPEAKS}\r\n"
+    "GET / HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\nConnection:"
+    " Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version:"
+    f" 13\r\nSec-WebSocket-Protocol: {SPEAKS}\r\n"
 )
 OUTSIDE = "/../../../../../../../../etc/passwd"
 
@@ -40,7 +41,9 @@ def page(server: Any) -> int:
 
 def joined(server: Any) -> ClientConnection:
     address = f"ws://127.0.0.1:{server.get_port()}"
-    return connect(address, subprotocols=[Subprotocol(SPEAKS)], proxy=None, open_timeout=20.0, max_size=None)
+    return connect(
+        address, subprotocols=[Subprotocol(SPEAKS)], proxy=None, open_timeout=20.0, max_size=None
+    )
 
 
 def read_on(client: ClientConnection) -> None:
@@ -85,10 +88,14 @@ def test_no_file_but_the_page(server: Any, path: str) -> None:
     assert b"root:" not in answer
 
 
-@pytest.mark.parametrize("host", ["evil.example", "127.0.0.1.evil.example:8080", "[", "user@evil.example"])
+@pytest.mark.parametrize(
+    "host", ["evil.example", "127.0.0.1.evil.example:8080", "[", "user@evil.example"]
+)
 def test_under_another_name_nothing_is_served(server: Any, host: str) -> None:
     """A page whose name was made to point here is of the same origin as what it asks for."""
-    assert said(server, f"GET / HTTP/1.1\r\nHost: {host}\r\n\r\n".encode()).startswith(b"HTTP/1.1 403")
+    assert said(server, f"GET / HTTP/1.1\r\nHost: {host}\r\n\r\n".encode()).startswith(
+        b"HTTP/1.1 403"
+    )
     assert said(server, (HANDSHAKE.format(host=host) + "\r\n").encode()).startswith(b"HTTP/1.1 403")
 
 
@@ -98,7 +105,9 @@ def moved(slider: Any, to: object) -> bytes:
 
 
 def update(slider: Any, updates: object) -> bytes:
-    return msgspec.msgpack.encode({"type": "GuiUpdateMessage", "uuid": slider._impl.uuid, "updates": updates})
+    return msgspec.msgpack.encode(
+        {"type": "GuiUpdateMessage", "uuid": slider._impl.uuid, "updates": updates}
+    )
 
 
 def test_what_a_page_of_another_host_sends_is_not_read(server: Any) -> None:
@@ -122,11 +131,21 @@ def told(caplog: pytest.LogCaptureFixture) -> list[str]:
 
 @pytest.mark.parametrize(
     "nonsense",
-    [b"", b"\xff" * 100, "text", msgspec.msgpack.encode([1]), msgspec.msgpack.encode({"type": "x"}), b"\x91" * 10_000],
+    [
+        b"",
+        b"\xff" * 100,
+        "text",
+        msgspec.msgpack.encode([1]),
+        msgspec.msgpack.encode({"type": "x"}),
+        b"\x91" * 10_000,
+    ],
     ids=["empty", "bytes", "text", "list", "unknown", "deep"],
 )
 def test_nonsense_ends_its_connection_and_nothing_else(
-    server: Any, caplog: pytest.LogCaptureFixture, capfd: pytest.CaptureFixture[str], nonsense: bytes
+    server: Any,
+    caplog: pytest.LogCaptureFixture,
+    capfd: pytest.CaptureFixture[str],
+    nonsense: bytes,
 ) -> None:
     with joined(server) as ours:
         ours.send(nonsense)
@@ -139,7 +158,10 @@ def test_nonsense_ends_its_connection_and_nothing_else(
 
 @pytest.mark.parametrize("updates", [{"nope": 1}, {"value": "x"}, {"value": None}])
 def test_nonsense_for_a_slider_is_dropped_in_silence(
-    server: Any, caplog: pytest.LogCaptureFixture, capfd: pytest.CaptureFixture[str], updates: object
+    server: Any,
+    caplog: pytest.LogCaptureFixture,
+    capfd: pytest.CaptureFixture[str],
+    updates: object,
 ) -> None:
     slider, other = (server.gui.add_slider(name, 0.0, 1.0, 0.1, 0.5) for name in ("one", "other"))
     with joined(server) as ours:
@@ -194,8 +216,13 @@ def patient(monkeypatch: pytest.MonkeyPatch, seconds: float) -> Iterator[Any]:
         close_server(served)
 
 
-def test_of_connections_that_never_ask_the_oldest_make_room(monkeypatch: pytest.MonkeyPatch) -> None:
-    with patient(monkeypatch, 600.0) as server, many(server, MOST_CONNECTIONS + 20, half_a_request) as clients:
+def test_of_connections_that_never_ask_the_oldest_make_room(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    with (
+        patient(monkeypatch, 600.0) as server,
+        many(server, MOST_CONNECTIONS + 20, half_a_request) as clients,
+    ):
         until(lambda: all(map(_hung_up, clients[:20])))
         assert page(server) == 200
         assert not any(map(_hung_up, clients[21:]))

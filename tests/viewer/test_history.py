@@ -20,7 +20,11 @@ def row(t: float, **timing: float) -> tuple[float, ...]:
 
 def test_columns_are_those_of_the_table() -> None:
     fields = [f"{topic.name} {field}" for topic in LIVE_TOPICS for field in topic.fields]
-    assert fields[columns("/wheels", "w1_rad_s", 3)] == ["/wheels w1_rad_s", "/wheels w2_rad_s", "/wheels w3_rad_s"]
+    assert fields[columns("/wheels", "w1_rad_s", 3)] == [
+        "/wheels w1_rad_s",
+        "/wheels w2_rad_s",
+        "/wheels w3_rad_s",
+    ]
     assert fields[columns("/timing", "lateness_s", 2)] == ["/timing lateness_s", "/timing cost_s"]
     with pytest.raises(ValueError, match="topic '/nope', allowed: /vehicle, /cue"):
         columns("/nope", "time_s")
@@ -54,7 +58,12 @@ def test_the_past_ends_after_its_span() -> None:
 def test_the_latest_tick_of_a_step_is_seen() -> None:
     """One bad tick in a thousand has to show."""
     history = History(HEAD)
-    history.add([row(k / 1000.0, lateness=5e-3 if k == 513 else 1e-5, cost=9e-4 if k == 514 else 1e-4) for k in range(1000)])
+    history.add(
+        [
+            row(k / 1000.0, lateness=5e-3 if k == 513 else 1e-5, cost=9e-4 if k == 514 else 1e-4)
+            for k in range(1000)
+        ]
+    )
     timing = history.traces().timing
     assert timing is not None
     assert timing[:, 0].max() == 5e-3

@@ -99,7 +99,9 @@ def test_the_end_stays(live: Live) -> None:
     assert live.enabled() == set()
 
 
-def test_plots_show_what_was_felt_and_the_share_of_the_limits(live: Live, platform: Platform) -> None:
+def test_plots_show_what_was_felt_and_the_share_of_the_limits(
+    live: Live, platform: Platform
+) -> None:
     for k in range(100):
         live.writer.tick(*live_tick(k / 100.0))
     live.look()
@@ -107,8 +109,13 @@ def test_plots_show_what_was_felt_and_the_share_of_the_limits(live: Live, platfo
     tick, timing = live_tick(0.99)
     assert plots._force.data[0][-1] == pytest.approx(timing.elapsed)
     assert [line[-1] for line in plots._force.data[4:]] == pytest.approx(list(tick.vehicle.f_B))
-    assert [line[-1] for line in plots._rate.data[4:]] == pytest.approx(np.degrees(tick.vehicle.w_NB_B).tolist())
-    share = [100.0 * w / limit for w, limit in zip(tick.wheels.speed, platform.wheel_limits.speed_rad_s, strict=True)]
+    assert [line[-1] for line in plots._rate.data[4:]] == pytest.approx(
+        np.degrees(tick.vehicle.w_NB_B).tolist()
+    )
+    share = [
+        100.0 * w / limit
+        for w, limit in zip(tick.wheels.speed, platform.wheel_limits.speed_rad_s, strict=True)
+    ]
     assert [line[-1] for line in plots._wheels.data[1:]] == pytest.approx([*share, 100.0, -100.0])
     assert plots._timing is not None
     assert [line[-1] for line in plots._timing.data[1:]] == pytest.approx([0.01, 0.2])
@@ -116,7 +123,10 @@ def test_plots_show_what_was_felt_and_the_share_of_the_limits(live: Live, platfo
 
 def test_numbers_that_are_none_are_not_drawn_and_do_no_harm(live: Live) -> None:
     tick, timing = live_tick(1.0)
-    live.writer.tick(replace(tick, motion=replace(tick.motion, q_WS=(float("nan"),) * 4)), replace(timing, state=99.0))
+    live.writer.tick(
+        replace(tick, motion=replace(tick.motion, q_WS=(float("nan"),) * 4)),
+        replace(timing, state=99.0),
+    )
     live.look()
     live.writer.tick(*live_tick(2.0))
     live.look()

@@ -38,7 +38,12 @@ def test_a_pause_keeps_its_place() -> None:
     assert head.at == 4.5
 
 
-@given(st.lists(st.one_of(st.floats(0.0, 3.0), st.sampled_from(["toggle"]), st.floats(-9.0, -0.1)), max_size=30))
+@given(
+    st.lists(
+        st.one_of(st.floats(0.0, 3.0), st.sampled_from(["toggle"]), st.floats(-9.0, -0.1)),
+        max_size=30,
+    )
+)
 def test_it_never_leaves_the_flight(acts: list[Any]) -> None:
     head = PlayHead(1.0, 6.0)
     for act in acts:
@@ -62,7 +67,11 @@ def test_it_does_not_go_to_what_is_no_time(at: float) -> None:
 
 def sent(server: Any, label: str, value: Any) -> None:
     """A client sets a value, as viser takes it: of the right type, and otherwise whatever it says."""
-    (handle,) = (h for h in server.gui._gui_input_handle_from_uuid.values() if getattr(h._impl.props, "label", "") == label)
+    (handle,) = (
+        h
+        for h in server.gui._gui_input_handle_from_uuid.values()
+        if getattr(h._impl.props, "label", "") == label
+    )
     handle._impl.value = type(handle._impl.value)(value)
     assert handle._impl.update_cb
     for called in handle._impl.update_cb:
@@ -108,14 +117,18 @@ def test_the_page_follows_the_play_head(server: Any, run: RecordedRun) -> None:
     assert window.time[-1] <= 4.25 < window.time[-1] + 2 * STEP
     assert window.time[0] > 4.25 - SPAN
     assert page._plots._wheels.data[1][-1] == pytest.approx(
-        100.0 * run.flight.wheel_speed[np.searchsorted(run.flight.time, window.time[-1]), 0] / page._plots._speed[0]
+        100.0
+        * run.flight.wheel_speed[np.searchsorted(run.flight.time, window.time[-1]), 0]
+        / page._plots._speed[0]
     )
     assert page._button.label == "Pause"
     page.refresh(100.0)
     assert page._button.label == "Play"
 
 
-def test_it_is_served_until_somebody_says_no(run: RecordedRun, capfd: pytest.CaptureFixture[str]) -> None:
+def test_it_is_served_until_somebody_says_no(
+    run: RecordedRun, capfd: pytest.CaptureFixture[str]
+) -> None:
     told: list[str] = []
     answers = iter([True, True, False])
     play(run.platform, run.flight, told.append, go_on=lambda: next(answers))

@@ -24,7 +24,9 @@ def test_a_replay(run: RecordedRun, tmp_path: Path, capfd: pytest.CaptureFixture
     assert len(page) < 4e6
 
 
-@pytest.mark.parametrize(("duration", "rate"), [(1.0, 120.0), (6.0, 1000.0), (0.05, 100.0), (0.0, 1.0)])
+@pytest.mark.parametrize(
+    ("duration", "rate"), [(1.0, 120.0), (6.0, 1000.0), (0.05, 100.0), (0.0, 1.0)]
+)
 def test_frames_span_the_flight(duration: float, rate: float) -> None:
     time = np.arange(int(duration * rate) + 1) / rate
     shown, pause = frames(time)
@@ -55,7 +57,9 @@ def test_nowhere_to_write(run: RecordedRun, tmp_path: Path) -> None:
         write_replay(run.platform, run.flight, tmp_path / "no" / "replay.html")
 
 
-def test_without_viser_it_says_what_to_install(run: RecordedRun, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_viser_it_says_what_to_install(
+    run: RecordedRun, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setitem(sys.modules, "viser", None)
     with pytest.raises(InputError, match=r"pip install 'atlas_cueing\[report\]'"):
         write_replay(run.platform, run.flight, tmp_path / "replay.html")
@@ -63,7 +67,9 @@ def test_without_viser_it_says_what_to_install(run: RecordedRun, tmp_path: Path,
 
 def test_wheels_turn_by_the_integral_of_their_speed() -> None:
     time = np.linspace(0.0, 3.0, 3001)
-    angle = wheel_angles(time, np.column_stack([np.cos(time), 2.0 + 0.0 * time, np.full(3001, np.nan)]))
+    angle = wheel_angles(
+        time, np.column_stack([np.cos(time), 2.0 + 0.0 * time, np.full(3001, np.nan)])
+    )
     assert angle[:, 0] == pytest.approx(np.sin(time), abs=1e-6)
     assert angle[:, 1] == pytest.approx(2.0 * time)
     assert not angle[:, 2].any()

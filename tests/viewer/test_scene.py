@@ -10,7 +10,13 @@ from atlas_cueing.scenario import Platform, load_platform, presets
 from atlas_cueing.viewer.scene import Pose, Scene
 
 BESIDE = "/bridge/carriage/telescope/top"
-REST = Pose((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, -9.80665), (0.0, 0.0, -9.80665))
+REST = Pose(
+    (1.0, 0.0, 0.0, 0.0),
+    (0.0, 0.0, 0.0),
+    (0.0, 0.0, 0.0),
+    (0.0, 0.0, -9.80665),
+    (0.0, 0.0, -9.80665),
+)
 
 
 def node(server: Any, path: str) -> Any:
@@ -33,7 +39,9 @@ def points(server: Any, path: str) -> np.ndarray:
     """Vertices of a mesh in W, with more of them along all edges."""
     at, turned = place(server, path)
     mesh = node(server, path)
-    a, b = (turned.apply(np.asarray(mesh.vertices)[np.asarray(mesh.faces)[:, k]]) + at for k in (0, 2))
+    a, b = (
+        turned.apply(np.asarray(mesh.vertices)[np.asarray(mesh.faces)[:, k]]) + at for k in (0, 2)
+    )
     return np.vstack([a + s * (b - a) for s in np.linspace(0.0, 1.0, 9)])
 
 
@@ -41,7 +49,9 @@ def test_sphere_and_stage_are_where_the_pose_says(server: Any, platform: Platfor
     scene, rng = Scene(server, platform), np.random.default_rng(1)
     for _ in range(10):
         p, q = rng.uniform(-1.0, 1.0, 3), Rotation.random(rng=rng)
-        scene.show(Pose(q.as_quat(scalar_first=True), p, (0.0, 0.0, 0.0), REST.vehicle_f, REST.felt_f))
+        scene.show(
+            Pose(q.as_quat(scalar_first=True), p, (0.0, 0.0, 0.0), REST.vehicle_f, REST.felt_f)
+        )
         at, turned = place(server, f"{BESIDE}/cabin")
         assert at == pytest.approx(p)
         assert (turned * q.inv()).magnitude() < 1e-6
@@ -70,7 +80,9 @@ def test_a_wheel_touches_the_sphere_and_moves_it_along_its_drive(server: Any, pr
         scene.show(Pose(REST.q_WS, REST.p_W, angles, REST.vehicle_f, REST.felt_f))
         rim = before.inv().apply(radius * contact - centre)
         moved = place(server, path)[1].apply(rim) - before.apply(rim)
-        assert moved == pytest.approx(step * table.radius_m * drive, abs=1e-3 * step * table.radius_m)
+        assert moved == pytest.approx(
+            step * table.radius_m * drive, abs=1e-3 * step * table.radius_m
+        )
 
 
 @pytest.mark.parametrize("preset", presets())
@@ -82,20 +94,25 @@ def test_nothing_cuts_into_the_sphere(server: Any, preset: str) -> None:
         rollers = np.linalg.norm(points(server, f"{BESIDE}/wheel_{k + 1}/rollers"), axis=1)
         assert rollers.min() == pytest.approx(radius, rel=0.01)  # it touches
         assert np.linalg.norm(points(server, f"{BESIDE}/wheel_{k + 1}/hub"), axis=1).min() > radius
-        assert np.linalg.norm(points(server, f"{BESIDE}/wheel_{k + 1}_motor"), axis=1).min() > radius
+        assert (
+            np.linalg.norm(points(server, f"{BESIDE}/wheel_{k + 1}_motor"), axis=1).min() > radius
+        )
     assert np.linalg.norm(points(server, f"{BESIDE}/arms"), axis=1).min() > radius
     assert points(server, f"{BESIDE}/inner")[:, 2].max() < -radius
 
 
 @pytest.mark.parametrize("preset", presets())
 @pytest.mark.parametrize("share", [-1.0, 0.0, 1.0])
-def test_the_telescope_holds_together_over_the_travel(server: Any, preset: str, share: float) -> None:
+def test_the_telescope_holds_together_over_the_travel(
+    server: Any, preset: str, share: float
+) -> None:
     platform = load_platform(preset)
     p = tuple(share * travel for travel in platform.stage_limit_values().travel)
     Scene(server, platform).show(Pose(REST.q_WS, p, (0.0, 0.0, 0.0), REST.vehicle_f, REST.felt_f))
     parent = "/bridge/carriage"
     sleeve, middle, inner = (
-        points(server, path)[:, 2] for path in (f"{parent}/sleeve", f"{parent}/telescope/middle", f"{BESIDE}/inner")
+        points(server, path)[:, 2]
+        for path in (f"{parent}/sleeve", f"{parent}/telescope/middle", f"{BESIDE}/inner")
     )
     floor = node(server, "/floor").position[2]
     assert floor < sleeve.min() <= middle.min() < sleeve.max()
@@ -104,7 +121,10 @@ def test_the_telescope_holds_together_over_the_travel(server: Any, preset: str, 
 
 @pytest.mark.parametrize("size", [0.0, 1e-311, 1e-3, 2.0, 9.80665, 29.0, 300.0])
 def test_the_arrow_is_the_force(server: Any, platform: Platform, size: float) -> None:
-    """Forward, right, down becomes forward, left, up; of a flight that is not known, 2 g is the longest."""
+    """Forward, right, down becomes forward, left, up.
+
+    Of a flight that is not known, 2 g is the longest.
+    """
     f = size * np.array((0.48, 0.6, -0.64))
     Scene(server, platform).show(Pose(REST.q_WS, REST.p_W, REST.wheel_angle, f, REST.felt_f))
     _, turned = place(server, f"{BESIDE}/cabin/head/pilot")
@@ -127,7 +147,9 @@ def test_the_largest_force_stays_in_the_picture(server: Any, preset: str, larges
     camera = server.initial_camera
     ahead = (camera.look_at - camera.position) / np.linalg.norm(camera.look_at - camera.position)
     right = np.cross(ahead, (0.0, 0.0, 1.0)) / np.linalg.norm(np.cross(ahead, (0.0, 0.0, 1.0)))
-    for p in (np.array((x, y, z)) * travel for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)):
+    for p in (
+        np.array((x, y, z)) * travel for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)
+    ):
         q, along = Rotation.random(rng=rng), rng.normal(size=3)
         along = np.array((0.0, 0.0, 1.0)) if rng.random() < 0.5 else along / np.linalg.norm(along)
         f = largest * 9.80665 * q.inv().apply(along) * (1, -1, -1)
@@ -143,11 +165,17 @@ def test_arrows_tell_whose_they_are_and_how_large(server: Any, platform: Platfor
     said = [node(server, f"{BESIDE}/cabin/head/{name}/tip/name") for name in ("pilot", "felt")]
     scene.show(Pose(REST.q_WS, REST.p_W, REST.wheel_angle, (0.0, 0.0, -28.44), REST.felt_f))
     assert [label.text for label in said] == ["vehicle 2.9 g", "rider 1.0 g"]
-    assert node(server, "/scale").text == "arrows are specific force: 1 g = 0.45 m, at most 1.30 m (2.9 g)"
-    assert len({label.anchor for label in said}) == 2  # where both arrows are the same, the labels still stand apart
+    assert (
+        node(server, "/scale").text
+        == "arrows are specific force: 1 g = 0.45 m, at most 1.30 m (2.9 g)"
+    )
+    # where both arrows are the same, the labels still stand apart
+    assert len({label.anchor for label in said}) == 2
 
 
 def test_a_pose_with_a_number_that_is_none_cannot_be_drawn() -> None:
     assert REST.finite
     assert not Pose((1.0, 0.0, 0.0, float("nan")), *(REST.p_W,) * 4).finite
-    assert not Pose(REST.q_WS, REST.p_W, REST.wheel_angle, REST.vehicle_f, (0.0, float("inf"), 0.0)).finite
+    assert not Pose(
+        REST.q_WS, REST.p_W, REST.wheel_angle, REST.vehicle_f, (0.0, float("inf"), 0.0)
+    ).finite

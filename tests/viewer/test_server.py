@@ -19,11 +19,15 @@ SPEAKS = [Subprotocol(f"viser-v{viser.__version__}")]
 
 def answer(server: Any, origin: Any) -> int:
     """Bytes of the first message that a page from `origin` is sent."""
-    with connect(f"ws://127.0.0.1:{server.get_port()}", origin=origin, subprotocols=SPEAKS, proxy=None) as socket:
+    with connect(
+        f"ws://127.0.0.1:{server.get_port()}", origin=origin, subprotocols=SPEAKS, proxy=None
+    ) as socket:
         return len(socket.recv(timeout=20.0))
 
 
-@pytest.mark.parametrize("origin", ["http://evil.example", "https://127.0.0.1.evil.example", "null", "file://"])
+@pytest.mark.parametrize(
+    "origin", ["http://evil.example", "https://127.0.0.1.evil.example", "null", "file://"]
+)
 def test_a_page_of_another_host_is_shut_out(server: Any, origin: str) -> None:
     with pytest.raises(InvalidStatus, match="HTTP 403"):
         answer(server, origin)
@@ -38,7 +42,9 @@ def test_our_own_page_is_not(server: Any) -> None:
 def test_it_listens_on_the_loopback_only(server: Any) -> None:
     listening = [line.split() for line in Path("/proc/net/tcp").read_text().splitlines()[1:]]
     port = f"{server.get_port():04X}"
-    assert [line[1] for line in listening if line[1].endswith(f":{port}") and line[3] == "0A"] == [f"0100007F:{port}"]
+    assert [line[1] for line in listening if line[1].endswith(f":{port}") and line[3] == "0A"] == [
+        f"0100007F:{port}"
+    ]
     with urlopen(url_of(server), timeout=20.0) as page:  # noqa: S310 - our own
         assert page.status == 200
 

@@ -1,4 +1,7 @@
-"""Meshes against areas, volumes and lengths in closed form; a wrong order of corners would turn a volume's sign."""
+"""Meshes against areas, volumes and lengths in closed form.
+
+A wrong order of corners would turn a volume's sign.
+"""
 
 import numpy as np
 import pytest
@@ -36,15 +39,21 @@ def test_a_whole_sphere() -> None:
 
 
 @given(st.floats(-3.0, 3.0), st.floats(0.05, 3.0), st.floats(-1.5, 1.4), st.floats(0.05, 1.0))
-def test_a_patch_has_the_area_of_its_zone(azimuth: float, width: float, elevation: float, height: float) -> None:
+def test_a_patch_has_the_area_of_its_zone(
+    azimuth: float, width: float, elevation: float, height: float
+) -> None:
     """Archimedes: R^2 times the width times the difference of the sines."""
     top = min(elevation + height, 0.5 * np.pi)
     exact = 9.0 * width * (np.sin(top) - np.sin(elevation))
-    assert area(patch(3.0, (azimuth, azimuth + width), (elevation, top))) == pytest.approx(exact, rel=0.01)
+    assert area(patch(3.0, (azimuth, azimuth + width), (elevation, top))) == pytest.approx(
+        exact, rel=0.01
+    )
 
 
 @given(point, point, st.floats(0.01, 1.0), st.sampled_from([0.0, 0.5, 1.0]))
-def test_a_rod_has_the_volume_of_a_frustum(start: np.ndarray, end: np.ndarray, radius: float, tip: float) -> None:
+def test_a_rod_has_the_volume_of_a_frustum(
+    start: np.ndarray, end: np.ndarray, radius: float, tip: float
+) -> None:
     length = float(np.linalg.norm(end - start))
     if length < 1e-3:
         return
@@ -78,4 +87,6 @@ def test_a_circle_closes() -> None:
     assert np.linalg.norm(segments, axis=2) == pytest.approx(2.0)
     assert segments[1:, 0] == pytest.approx(segments[:-1, 1])
     assert segments[0, 0] == pytest.approx(segments[-1, 1])
-    assert np.linalg.norm(segments[:, 1] - segments[:, 0], axis=1).sum() == pytest.approx(4.0 * np.pi, rel=1e-3)
+    assert np.linalg.norm(segments[:, 1] - segments[:, 0], axis=1).sum() == pytest.approx(
+        4.0 * np.pi, rel=1e-3
+    )

@@ -30,7 +30,9 @@ def state_of(pid: int) -> str:
         return ""
 
 
-def test_a_stopped_view_does_not_hold_the_writer_up(platform: Platform, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_stopped_view_does_not_hold_the_writer_up(
+    platform: Platform, capfd: pytest.CaptureFixture[str]
+) -> None:
     ring, buttons = live_ring(1.0, 300.0), OperatorButtons()
     writer = LiveWriter(ring)
     with ViewerProcess(ring, platform, buttons.press, {}) as viewer:

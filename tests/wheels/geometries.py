@@ -20,7 +20,9 @@ vector = st.tuples(number, number, number).filter(lambda v: norm(v) > 0.1)
 
 def geometry_of(case: dict) -> Geometry:
     rows = zip(case["contact"], case["drive"], case["wheel_radius_m"], strict=True)
-    first, second, third = (OmniWheel.along(tuple(contact), tuple(drive), radius) for contact, drive, radius in rows)
+    first, second, third = (
+        OmniWheel.along(tuple(contact), tuple(drive), radius) for contact, drive, radius in rows
+    )
     return Geometry(case["name"], case["sphere_radius_m"], (first, second, third))
 
 
@@ -28,7 +30,9 @@ def equilateral(elevation: float) -> Geometry:
     c, s, h = cos(elevation), sin(elevation), 0.5 * sqrt(3.0)
     contacts = [(c, 0.0, -s), (-0.5 * c, -h * c, -s), (-0.5 * c, h * c, -s)]
     drives = [(0.0, -1.0, 0.0), (-h, 0.5, 0.0), (h, 0.5, 0.0)]
-    first, second, third = (OmniWheel.along(r, v, 0.08) for r, v in zip(contacts, drives, strict=True))
+    first, second, third = (
+        OmniWheel.along(r, v, 0.08) for r, v in zip(contacts, drives, strict=True)
+    )
     return Geometry("equilateral", 0.75, (first, second, third))
 
 

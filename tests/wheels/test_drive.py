@@ -33,17 +33,24 @@ def motion(time: float, w_WS_W: Vec3, alpha_WS_W: Vec3) -> Motion:
 
 
 @given(geometries(), vector, vector)
-def test_speeds_bring_the_motion_back_through_the_jacobian(geometry: Geometry, w_W: Vec3, alpha_W: Vec3) -> None:
+def test_speeds_bring_the_motion_back_through_the_jacobian(
+    geometry: Geometry, w_W: Vec3, alpha_W: Vec3
+) -> None:
     wheels = Wheels(geometry)
     speeds = wheels.speeds(motion(1.5, w_W, alpha_W))
     assert speeds.time == 1.5
     np.testing.assert_allclose(apply(geometry.sphere_from_wheels, speeds.speed), w_W, atol=1e-9)
-    np.testing.assert_allclose(apply(geometry.sphere_from_wheels, speeds.acceleration), alpha_W, atol=1e-9)
+    np.testing.assert_allclose(
+        apply(geometry.sphere_from_wheels, speeds.acceleration), alpha_W, atol=1e-9
+    )
 
 
 @given(geometries(), vector, vector)
 def test_virtual_work(geometry: Geometry, moment_W: Vec3, w_W: Vec3) -> None:
-    """What the wheels put in, tau . omega, is what the sphere takes, M . Omega, whatever the motion."""
+    """What the wheels put in, tau . omega, is what the sphere takes, M .
+
+    Omega, whatever the motion.
+    """
     wheels = Wheels(geometry)
     power = dot(wheels.torques(moment_W), wheels.speeds(motion(0.0, w_W, ZERO)).speed)
     assert power == pytest.approx(dot(moment_W, w_W), rel=1e-7, abs=1e-9)

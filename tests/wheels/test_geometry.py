@@ -23,7 +23,9 @@ def test_the_oracle_has_both_kinds() -> None:
 def test_oracle(case: dict) -> None:
     geometry = geometry_of(case)
     for name in ("induced_rows", "wheels_from_sphere", "sphere_from_wheels"):
-        np.testing.assert_allclose(getattr(geometry, name), case[name], rtol=1e-12, atol=1e-12, err_msg=name)
+        np.testing.assert_allclose(
+            getattr(geometry, name), case[name], rtol=1e-12, atol=1e-12, err_msg=name
+        )
     assert geometry.determinant == pytest.approx(case["det_induced"], abs=1e-12)
     assert geometry.condition_number == pytest.approx(case["cond_induced"], rel=1e-12)
     assert geometry.slip_free
@@ -34,23 +36,30 @@ def test_singular_geometry_is_refused_with_its_numbers(case: dict) -> None:
     geometry = geometry_of(case)
     assert not geometry.slip_free
     assert abs(geometry.determinant - case["det_induced"]) < 1e-12
-    np.testing.assert_allclose(geometry.wheels_from_sphere, case["wheels_from_sphere"], rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(
+        geometry.wheels_from_sphere, case["wheels_from_sphere"], rtol=1e-12, atol=1e-12
+    )
     with pytest.raises(SlipConditionError, match="kinematic slip condition") as refusal:
         _ = geometry.sphere_from_wheels
     assert refusal.value.condition_number > LARGEST_CONDITION_NUMBER
     assert f"{geometry.determinant:.3g}" in str(refusal.value)
 
 
-@pytest.mark.parametrize("elevation_deg", [1.0, 20.0, 40.0, degrees(asin(sqrt(2.0 / 3.0))), 70.0, 89.0])
+@pytest.mark.parametrize(
+    "elevation_deg", [1.0, 20.0, 40.0, degrees(asin(sqrt(2.0 / 3.0))), 70.0, 89.0]
+)
 def test_closed_forms_of_section_4_2(elevation_deg: float) -> None:
     theta = radians(elevation_deg)
     geometry = equilateral(theta)
-    assert geometry.determinant == pytest.approx(1.5 * sqrt(3.0) * cos(theta) * sin(theta) ** 2, rel=1e-12)
+    assert geometry.determinant == pytest.approx(
+        1.5 * sqrt(3.0) * cos(theta) * sin(theta) ** 2, rel=1e-12
+    )
     expected = sqrt(2.0) / tan(theta)
     assert geometry.condition_number == pytest.approx(max(expected, 1.0 / expected), rel=1e-9)
     k = 0.08 / (3.0 * 0.75)
     csc, sec = 1.0 / sin(theta), 1.0 / cos(theta)
-    J = [[-2.0 * csc, csc, csc], [0.0, sqrt(3.0) * csc, -sqrt(3.0) * csc], [-sec, -sec, -sec]]  # Eq. 27
+    # Eq. 27
+    J = [[-2.0 * csc, csc, csc], [0.0, sqrt(3.0) * csc, -sqrt(3.0) * csc], [-sec, -sec, -sec]]
     np.testing.assert_allclose(geometry.sphere_from_wheels, k * np.array(J), rtol=1e-12, atol=1e-13)
 
 
@@ -61,7 +70,9 @@ def test_the_two_maps_are_inverse(geometry: Geometry) -> None:
 
 
 @given(geometries(), vector)
-def test_contact_points_move_as_the_wheels_do(geometry: Geometry, w_W: tuple[float, float, float]) -> None:
+def test_contact_points_move_as_the_wheels_do(
+    geometry: Geometry, w_W: tuple[float, float, float]
+) -> None:
     """Second derivation: the sphere's surface velocity Omega x R along the drive is the wheel's r omega (Eq. 4 and 9)."""
     speeds = np.array(geometry.wheels_from_sphere) @ np.array(w_W)
     for wheel, speed in zip(geometry.wheels, speeds, strict=True):
@@ -73,7 +84,11 @@ def test_contact_points_move_as_the_wheels_do(geometry: Geometry, w_W: tuple[flo
 def test_numpy_agrees(geometry: Geometry) -> None:
     rows = np.array([np.cross(wheel.contact, wheel.drive) for wheel in geometry.wheels])
     assert geometry.determinant == pytest.approx(np.linalg.det(rows), rel=1e-9, abs=1e-12)
-    J = np.linalg.inv(rows) @ np.diag([wheel.radius for wheel in geometry.wheels]) / geometry.sphere_radius
+    J = (
+        np.linalg.inv(rows)
+        @ np.diag([wheel.radius for wheel in geometry.wheels])
+        / geometry.sphere_radius
+    )
     np.testing.assert_allclose(geometry.sphere_from_wheels, J, rtol=1e-8, atol=1e-10)
 
 
@@ -96,7 +111,9 @@ def test_a_drive_off_the_tangent_plane_is_refused() -> None:
         OmniWheel.along((1.0, 0.0, 0.0), (2.0 * TANGENT_TOLERANCE, 1.0, 0.0), 0.1)
 
 
-@pytest.mark.parametrize("bad", [(0.0, 0.0, 0.0), (float("inf"), 0.0, 0.0), (float("nan"), 1.0, 0.0)])
+@pytest.mark.parametrize(
+    "bad", [(0.0, 0.0, 0.0), (float("inf"), 0.0, 0.0), (float("nan"), 1.0, 0.0)]
+)
 def test_a_direction_without_length_is_refused(bad: tuple[float, float, float]) -> None:
     with pytest.raises(InputError, match=r"contact .* has no direction"):
         OmniWheel.along(bad, (0.0, 1.0, 0.0), 0.1)

@@ -14,15 +14,21 @@ LIMITS = WheelLimits((31.0, 25.0, 40.0), (60.0, 70.0, 80.0), (600.0, 600.0, 600.
 
 
 def use(geometry: Geometry, limit: Vec3, w_W: Vec3) -> float:
-    return float(np.max(np.abs(np.array(geometry.wheels_from_sphere) @ np.array(w_W)) / np.array(limit)))
+    return float(
+        np.max(np.abs(np.array(geometry.wheels_from_sphere) @ np.array(w_W)) / np.array(limit))
+    )
 
 
 @given(geometries())
 def test_a_wheel_is_at_its_limit_about_each_axis(geometry: Geometry) -> None:
     room = headroom(geometry, LIMITS)
     for axis, direction in enumerate(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))):
-        assert use(geometry, LIMITS.speed, scale(room.rate[axis], direction)) == pytest.approx(1.0, rel=1e-12)
-        assert use(geometry, LIMITS.acceleration, scale(room.acceleration[axis], direction)) == pytest.approx(1.0, rel=1e-12)
+        assert use(geometry, LIMITS.speed, scale(room.rate[axis], direction)) == pytest.approx(
+            1.0, rel=1e-12
+        )
+        assert use(
+            geometry, LIMITS.acceleration, scale(room.acceleration[axis], direction)
+        ) == pytest.approx(1.0, rel=1e-12)
 
 
 @given(geometries(), vector)
@@ -31,7 +37,10 @@ def test_the_worst_axis_is_the_worst(geometry: Geometry, direction: Vec3) -> Non
     unit = scale(1.0 / norm(direction), direction)
     assert use(geometry, LIMITS.speed, scale(room.worst_rate, unit)) <= 1.0 + 1e-12
     assert use(geometry, LIMITS.acceleration, scale(room.worst_acceleration, unit)) <= 1.0 + 1e-12
-    worst = max(use(geometry, LIMITS.speed, scale(room.worst_rate / norm(row), row)) for row in geometry.wheels_from_sphere)
+    worst = max(
+        use(geometry, LIMITS.speed, scale(room.worst_rate / norm(row), row))
+        for row in geometry.wheels_from_sphere
+    )
     assert worst == pytest.approx(1.0, rel=1e-12)
 
 

@@ -13,7 +13,8 @@ class Effort:
     """Sizes of all measurements; flights in s of flight.
 
     rounds: of what is measured in this process; `processes`: fresh processes of each kind.
-    memory: rate (Hz) and length (s) of each flight whose peak memory is measured, the shortest first.
+    memory: rate (Hz) and length (s) of each flight whose peak memory is measured, the shortest
+        first.
     """
 
     rounds: int

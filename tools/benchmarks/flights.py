@@ -4,7 +4,8 @@ from pathlib import Path
 
 from atlas_cueing.scenario import Scenario, load_scenario
 
-SCRIPTS = ("c1722", "f16_test")  # JSBSim's own; f16_test fails after 127 s, so shorter flights of it are whole
+# JSBSim's own; f16_test fails after 127 s, so shorter flights of it are whole
+SCRIPTS = ("c1722", "f16_test")
 STAGED = SCRIPTS[0]
 
 _SCRIPT = """
@@ -16,7 +17,8 @@ script = "{name}"
 preset = "atlas-2.9m"
 """
 
-# A lasting motion without end: all axes busy, at any rate and for any time, and no aircraft that falls down.
+# A lasting motion without end: all axes busy, at any rate and for any time, and no aircraft that
+# falls down.
 _SIGNAL = """
 name = "signal"
 duration_s = {duration}

@@ -20,7 +20,9 @@ def build_kind() -> str:
 
 def facts() -> dict[str, str | int]:
     """Build, versions, cores."""
-    versions = {name: version(name) for name in ("atlas_cueing", "jsbsim", "ruckig", "numpy", "mcap")}
+    versions = {
+        name: version(name) for name in ("atlas_cueing", "jsbsim", "ruckig", "numpy", "mcap")
+    }
     return {
         "code": build_kind(),
         "python": platform.python_version(),
@@ -31,7 +33,10 @@ def facts() -> dict[str, str | int]:
 
 
 class Stolen:
-    """Share of the processors' time that the host gave to others since this was made; none where nothing tells it."""
+    """Share of the processors' time that the host gave to others since this was made.
+
+    None where nothing tells it.
+    """
 
     def __init__(self) -> None:
         self._begun = _times()

@@ -11,7 +11,8 @@ from .timing import fresh
 
 ASKED = Asked(300.0)  # MB, of an hour at 1 kHz
 _HOUR = 3600.0
-# The child tells its own peak: what the parent of a process sees (ru_maxrss of wait4) begins with the parent's own.
+# The child tells its own peak: what the parent of a process sees (ru_maxrss of wait4) begins with
+# the parent's own.
 _CODE = """
 import resource, sys
 from pathlib import Path
@@ -35,7 +36,15 @@ def measure(bench: Bench) -> Iterator[Row]:
         peaks.setdefault(rate, []).append((length, peak))
         asked = ASKED if (rate, length) == (1000.0, _HOUR) else None
         note = f"{length * rate:.0f} ticks"
-        yield Row("memory", f"run of {length / 60.0:.3g} min at {rate:g} Hz, peak", peak, "MB", [peak], asked=asked, note=note)
+        yield Row(
+            "memory",
+            f"run of {length / 60.0:.3g} min at {rate:g} Hz, peak",
+            peak,
+            "MB",
+            [peak],
+            asked=asked,
+            note=note,
+        )
     for rate, points in peaks.items():
         (short, low), (long, high) = min(points), max(points)
         if long > short:
@@ -47,6 +56,10 @@ def measure(bench: Bench) -> Iterator[Row]:
 def peak_memory(folder: Path, rate: float, length: float) -> float:
     """Peak resident memory of `atlas-cueing run`, MB (10^6 bytes)."""
     log = folder / "memory.mcap"
-    fresh(["run", signal_file(folder, rate, length), "-o", log, "--force"], folder, (sys.executable, "-c", _CODE))
+    fresh(
+        ["run", signal_file(folder, rate, length), "-o", log, "--force"],
+        folder,
+        (sys.executable, "-c", _CODE),
+    )
     log.unlink()
     return int((folder / "peak").read_text()) / 1e6

@@ -36,20 +36,45 @@ def measure(bench: Bench) -> Iterator[Row]:
     with without_garbage():
         found = interleaved(bench.effort.rounds, works)
         for _ in range(bench.effort.rounds):
-            record(scenario, ticks, log, lambda recorder: passes.append(each(recorder.append, ticks)))
+            record(
+                scenario, ticks, log, lambda recorder: passes.append(each(recorder.append, ticks))
+            )
     ours, theirs = ([1e6 * each.cpu for each in found[name]] for name in ("ours", "plain"))
     appended = np.min(passes, axis=0) / 1e3
-    note = f"append: median {np.median(appended):.1f}, p99.9 {np.quantile(appended, 0.999):.0f} (a chunk of 512 ticks)"
+    note = (
+        f"append: median {np.median(appended):.1f}, p99.9 {np.quantile(appended, 0.999):.0f} (a"
+        " chunk of 512 ticks)"
+    )
     for what, count, asked in (("a tick", len(ticks), None), ("a message", len(messages), ASKED)):
         samples, other = [time / count for time in ours], median(theirs) / count
         reference = f"mcap.Writer, zstd, {what}"
-        yield Row("recording", f"recording {what}", median(samples), "us", samples, reference, other, asked, note)
+        yield Row(
+            "recording",
+            f"recording {what}",
+            median(samples),
+            "us",
+            samples,
+            reference,
+            other,
+            asked,
+            note,
+        )
         note = f"{len(messages) / len(ticks):.2f} messages a tick; {_sizes(log, plain, len(ticks))}"
 
 
-def record(scenario: Scenario, ticks: list[Tick], log: Path, append: Callable[[McapRecorder], object] | None = None) -> None:
-    """Write a whole log, from opening it to its name; `append` does what lies between, by default a plain loop."""
-    recorder = McapRecorder(log, head_S=scenario.platform.head_S, metadata={}, attachments=scenario.attachments())
+def record(
+    scenario: Scenario,
+    ticks: list[Tick],
+    log: Path,
+    append: Callable[[McapRecorder], object] | None = None,
+) -> None:
+    """Write a whole log, from opening it to its name.
+
+    `append` does what lies between, by default a plain loop.
+    """
+    recorder = McapRecorder(
+        log, head_S=scenario.platform.head_S, metadata={}, attachments=scenario.attachments()
+    )
     recorder.status(0.0, "running", "")
     if append:
         append(recorder)

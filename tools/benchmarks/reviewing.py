@@ -1,4 +1,7 @@
-"""Review and compare of a long log, beside reading it with the mcap library; in fresh processes, start-up and all."""
+"""Review and compare of a long log, beside reading it with the mcap library.
+
+In fresh processes, start-up and all.
+"""
 
 import sys
 from collections.abc import Iterator
@@ -12,7 +15,10 @@ from .timing import fresh, interleaved
 
 RATE = 120.0  # Hz
 ASKED, ASKED_FOR = Asked(3.0), 600.0  # s of wall time, for a log of so many s
-_READ = "import sys; from mcap.reader import make_reader; sum(1 for _ in make_reader(open(sys.argv[1], 'rb')).iter_messages())"
+_READ = (
+    "import sys; from mcap.reader import make_reader; sum(1 for _ in make_reader(open(sys.argv[1],"
+    " 'rb')).iter_messages())"
+)
 
 
 def measure(bench: Bench) -> Iterator[Row]:
@@ -21,7 +27,9 @@ def measure(bench: Bench) -> Iterator[Row]:
     bench.say(f"review: flying {length:g} s twice")
     scenario = signal_file(folder, RATE, length)
     fresh(["run", scenario, "-o", "one.mcap", "--force"], folder)
-    fresh(["run", scenario, "-o", "other.mcap", "--force", "--set", "cueing.method=attitude"], folder)
+    fresh(
+        ["run", scenario, "-o", "other.mcap", "--force", "--set", "cueing.method=attitude"], folder
+    )
     bench.say(f"review: {bench.effort.processes} rounds")
     works = {
         "review": partial(fresh, ["review", "one.mcap", "--json"], folder),
@@ -33,7 +41,21 @@ def measure(bench: Bench) -> Iterator[Row]:
     size = f"{length / 60:g} min at {RATE:g} Hz"
     for name, bound in (("review", asked), ("compare", None)):
         for clock in ("wall", "cpu"):
-            samples, plain = ([getattr(cost, clock) for cost in found[each]] for each in (name, "plain"))
-            title = f"{name} of {size}{' and another' * (name == 'compare')}, {clock.replace('cpu', 'CPU')}"
+            samples, plain = (
+                [getattr(cost, clock) for cost in found[each]] for each in (name, "plain")
+            )
+            title = (
+                f"{name} of {size}{' and another' * (name == 'compare')},"
+                f" {clock.replace('cpu', 'CPU')}"
+            )
             judged = bound if clock == "wall" else None
-            yield Row("review", title, median(samples), "s", samples, "mcap reader, all messages", median(plain), judged)
+            yield Row(
+                "review",
+                title,
+                median(samples),
+                "s",
+                samples,
+                "mcap reader, all messages",
+                median(plain),
+                judged,
+            )

@@ -7,7 +7,10 @@ from typing import Any, Self
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """A bound on the measured value, or on its ratio to the reference; `goal` is what would be better still."""
+    """A bound on the measured value, or on its ratio to the reference.
+
+    `goal` is what would be better still.
+    """
 
     bound: float
     of_ratio: bool = False
@@ -53,7 +56,13 @@ class Row:
     def verdict(self) -> str:
         """`met` or `short`; empty where nothing was asked."""
         judged = self.ratio if self.asked and self.asked.of_ratio else self.value
-        return "" if self.asked is None or judged is None else "met" if self.asked.met(judged) else "short"
+        return (
+            ""
+            if self.asked is None or judged is None
+            else "met"
+            if self.asked.met(judged)
+            else "short"
+        )
 
     def noted(self, note: str) -> Self:
         """The same with more words."""

@@ -1,8 +1,9 @@
 """What each stage costs a tick.
 
-The mean is processor time over blocks of ticks without a clock between them, as a run has it. Median and p99.9 are over the
-ticks of passes with a clock around every call, whose own cost is in them and told apart. A tick counts with the least of its
-passes: it does the same work in each, and what comes on top is the machine's (a slice of 4 ms for someone else).
+The mean is processor time over blocks of ticks without a clock between them, as a run has it.
+Median and p99.9 are over the ticks of passes with a clock around every call, whose own cost is in
+them and told apart. A tick counts with the least of its passes: it does the same work in each, and
+what comes on top is the machine's (a slice of 4 ms for someone else).
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -33,7 +34,8 @@ BLOCK = 32  # ticks, as a run takes them through the pipeline
 ASKED = Asked(40.0)  # us a tick: blend, without vehicle and recording
 _CALLS = 2000  # of a peer, to time it
 
-Ready = Callable[[], tuple[Callable[[Any], object], Sequence[Any]]]  # a stage at its start, and what it is to be given
+# a stage at its start, and what it is to be given
+Ready = Callable[[], tuple[Callable[[Any], object], Sequence[Any]]]
 
 
 @dataclass(slots=True)
@@ -64,14 +66,26 @@ class Stage:
 
 
 def measure(bench: Bench) -> Iterator[Row]:
-    """Vehicle, cueing by each method, smoothing, guard, wheels, the whole pipeline; calls of ruckig beside them."""
-    scenarios = {name: script_scenario(bench.folder, STAGED, bench.effort.flight, name) for name in METHODS}
+    """Vehicle, cueing by each method, smoothing, guard, wheels, the whole pipeline.
+
+    Calls of ruckig beside them.
+    """
+    scenarios = {
+        name: script_scenario(bench.folder, STAGED, bench.effort.flight, name) for name in METHODS
+    }
     blend = scenarios["blend"]
     ticks = flown(blend)
     states, dt = [tick.vehicle for tick in ticks], ticks[1].vehicle.time
-    stages = {f"cueing {name}": Stage(partial(_cueing, scenario, dt, states)) for name, scenario in scenarios.items()}
-    stages["smoothing"] = Stage(lambda: (build_pipeline(blend, dt).smoothing.step, [tick.cue for tick in ticks]))
-    stages["wheels"] = Stage(lambda: (build_pipeline(blend, dt).wheels.speeds, [tick.motion for tick in ticks]))
+    stages = {
+        f"cueing {name}": Stage(partial(_cueing, scenario, dt, states))
+        for name, scenario in scenarios.items()
+    }
+    stages["smoothing"] = Stage(
+        lambda: (build_pipeline(blend, dt).smoothing.step, [tick.cue for tick in ticks])
+    )
+    stages["wheels"] = Stage(
+        lambda: (build_pipeline(blend, dt).wheels.speeds, [tick.motion for tick in ticks])
+    )
     stages["guard"] = Stage(partial(_guard, blend, dt, ticks))
     stages["pipeline"] = Stage(lambda: (build_pipeline(blend, dt).block, list(_blocks(states))))
     stages["advance"] = Stage(lambda: _vehicle(blend, len(ticks)))
@@ -101,19 +115,41 @@ def flown(scenario: Scenario) -> list[Tick]:
 def _rows(stages: dict[str, Stage], planning: dict[int, list[float]]) -> Iterator[Row]:
     bare, advance = stages.pop("bare"), stages.pop("advance")
     one, three = median(planning[1]), median(planning[3])
-    reading = Stage(advance.ready, [a - b for a, b in zip(advance.means, bare.means, strict=True)], advance.passes)
+    reading = Stage(
+        advance.ready,
+        [a - b for a, b in zip(advance.means, bare.means, strict=True)],
+        advance.passes,
+    )
     yield bare.row("bare JSBSim step")
-    row = reading.row("vehicle: advance less bare run()", reference="bare step", reference_value=median(bare.means))
+    row = reading.row(
+        "vehicle: advance less bare run()",
+        reference="bare step",
+        reference_value=median(bare.means),
+    )
     yield row.noted("these with run() in it")
     asked = {"pipeline": ASKED}
-    references = {"smoothing": ("six ruckig calls, 1 DOF", 6.0 * one), "pipeline": ("bare step", median(bare.means))}
+    references = {
+        "smoothing": ("six ruckig calls, 1 DOF", 6.0 * one),
+        "pipeline": ("bare step", median(bare.means)),
+    }
     titles = {"pipeline": "blend pipeline: cueing, smoothing, wheels"}
     for name, stage in stages.items():
         reference, value = references.get(name, ("ruckig call, 3 DOF", three))
-        yield stage.row(titles.get(name, name), reference=reference, reference_value=value, asked=asked.get(name))
+        yield stage.row(
+            titles.get(name, name),
+            reference=reference,
+            reference_value=value,
+            asked=asked.get(name),
+        )
     for axes, samples in planning.items():
         yield Row("stages", f"ruckig calculate, {axes} DOF", median(samples), "us", samples)
-    yield Row("stages", "the clock around each tick", clock_cost(), "us", note="is in the medians above, not in the means")
+    yield Row(
+        "stages",
+        "the clock around each tick",
+        clock_cost(),
+        "us",
+        note="is in the medians above, not in the means",
+    )
 
 
 def call_cost(call: Callable[[], object]) -> float:
@@ -133,11 +169,15 @@ def _blocks(states: list[VehicleState]) -> Iterator[list[VehicleState]]:
         yield states[start : start + BLOCK]
 
 
-def _cueing(scenario: Scenario, dt: float, states: list[VehicleState]) -> tuple[Callable[[Any], object], Sequence[Any]]:
+def _cueing(
+    scenario: Scenario, dt: float, states: list[VehicleState]
+) -> tuple[Callable[[Any], object], Sequence[Any]]:
     return build_pipeline(scenario, dt).cueing.step, states
 
 
-def _guard(scenario: Scenario, dt: float, ticks: list[Tick]) -> tuple[Callable[[Any], object], Sequence[Any]]:
+def _guard(
+    scenario: Scenario, dt: float, ticks: list[Tick]
+) -> tuple[Callable[[Any], object], Sequence[Any]]:
     """A guard that lets all of them through, or the time is that of something else."""
     platform = scenario.platform
     guard = Guard(dt, platform.wheel_limit_values(), platform.stage_limit_values())

@@ -15,7 +15,10 @@ _PYTHON = (sys.executable, "-c")
 
 
 def measure(bench: Bench) -> Iterator[Row]:
-    """Wall times, with processor times beside them: where the host gives the processor to others, those are the steadier."""
+    """Wall times, with processor times beside them.
+
+    Where the host gives the processor to others, those are the steadier.
+    """
     bench.say(f"start: {bench.effort.processes} rounds")
     second = script_file(bench.folder, "c1722", 1.0)
     commands = {
@@ -27,7 +30,9 @@ def measure(bench: Bench) -> Iterator[Row]:
     works = {name: partial(fresh, arguments, bench.folder) for name, arguments in commands.items()}
     works |= {name: partial(fresh, [code], bench.folder, _PYTHON) for name, code in plain.items()}
     found = interleaved(bench.effort.processes, works, warm=True)
-    beside = dict(zip(commands, ("python -c pass", "python -c pass", "import numpy, jsbsim"), strict=True))
+    beside = dict(
+        zip(commands, ("python -c pass", "python -c pass", "import numpy, jsbsim"), strict=True)
+    )
     asked = {"--help": HELP, "run of 1 s of flight": RUN}
     for name in works:
         samples = [cost.wall for cost in found[name]]
@@ -35,4 +40,14 @@ def measure(bench: Bench) -> Iterator[Row]:
         other = median(cost.wall for cost in found[reference]) if reference else None
         note = f"CPU {median(cost.cpu for cost in found[name]):.2f} s"
         title = f"atlas-cueing {name}" if name in commands else name
-        yield Row("start", f"{title}, wall", median(samples), "s", samples, reference, other, asked.get(name), note)
+        yield Row(
+            "start",
+            f"{title}, wall",
+            median(samples),
+            "s",
+            samples,
+            reference,
+            other,
+            asked.get(name),
+            note,
+        )

@@ -1,7 +1,7 @@
 """Clocks: processor time beside wall time, medians of interleaved rounds, fresh processes.
 
-A host that gives the processor to others makes wall time grow and processor time hardly, so ratios are of processor time.
-What is compared is measured in turns, so that a slow spell meets all of it.
+A host that gives the processor to others makes wall time grow and processor time hardly, so ratios
+are of processor time. What is compared is measured in turns, so that a slow spell meets all of it.
 """
 
 import gc
@@ -44,8 +44,13 @@ def cost(work: Callable[[], object]) -> Cost:
     return Cost(process_time() - cpu, perf_counter() - wall)
 
 
-def interleaved(rounds: int, works: Mapping[Any, Callable[[], Cost]], *, warm: bool = False) -> dict[Any, list[Cost]]:
-    """Costs of each work, in rounds of all of them; `warm` adds a round before them that does not count."""
+def interleaved(
+    rounds: int, works: Mapping[Any, Callable[[], Cost]], *, warm: bool = False
+) -> dict[Any, list[Cost]]:
+    """Costs of each work, in rounds of all of them.
+
+    `warm` adds a round before them that does not count.
+    """
     found: dict[Any, list[Cost]] = {name: [] for name in works}
     for number in range(rounds + warm):
         for name, work in works.items():
@@ -84,20 +89,29 @@ def clock_cost(calls: int = 20000) -> float:
 
 
 def fresh(arguments: Sequence[str | Path], folder: Path, command: Sequence[str] = COMMAND) -> Cost:
-    """A process of its own, by default of atlas-cueing, from its start to its end; quits when it fails.
+    """A process of its own, by default of atlas-cueing, from its start to its end.
 
-    It keeps what it has compiled in `folder`, also where the environment forbids it: as an installed program, it does not
-    compile its source at every start. So the first process of a kind is a slow one.
+    Quits when it fails.
+
+    It keeps what it has compiled in `folder`, also where the environment forbids it: as an
+    installed program, it does not compile its source at every start. So the first process of a kind
+    is a slow one.
     """
-    environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    environment = {
+        name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"
+    }
     environment["PYTHONPYCACHEPREFIX"] = str(folder / "compiled")
     with (folder / "said").open("w+") as said:
         begun = perf_counter()
-        process = subprocess.Popen([*command, *map(str, arguments)], cwd=folder, env=environment, stdout=said, stderr=said)
+        process = subprocess.Popen(
+            [*command, *map(str, arguments)], cwd=folder, env=environment, stdout=said, stderr=said
+        )
         _, status, usage = os.wait4(process.pid, 0)
         wall = perf_counter() - begun
         process.returncode = os.waitstatus_to_exitcode(status)
         if process.returncode:
             said.seek(0)
-            sys.exit(f"{' '.join(map(str, arguments))}: exit status {process.returncode}\n{said.read()}")
+            sys.exit(
+                f"{' '.join(map(str, arguments))}: exit status {process.returncode}\n{said.read()}"
+            )
     return Cost(usage.ru_utime + usage.ru_stime, wall)

@@ -1,8 +1,10 @@
 """A whole run over the bare loop of JSBSim's own script.
 
-Bare: load_script, run_ic, and run() as often as the run has steps; without the model's own output files, which a run does not
-write either. Whole: `run_scenario`, from the loaded scenario to the finished and evaluated log. The time of a tick is the
-difference of a long and a short flight over their ticks, so that start-up is not in it; that is what is left of the short one.
+Bare: load_script, run_ic, and run() as often as the run has steps; without the model's own output
+    files, which a run does not
+write either. Whole: `run_scenario`, from the loaded scenario to the finished and evaluated log. The
+time of a tick is the difference of a long and a short flight over their ticks, so that start-up is
+not in it; that is what is left of the short one.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -63,7 +65,10 @@ def measure(bench: Bench) -> Iterator[Row]:
     """Ratio, wall times and start-up of each script."""
     for script in SCRIPTS:
         bench.say(f"run: {script}, {bench.effort.rounds} rounds")
-        long, short = (script_scenario(bench.folder, script, duration) for duration in (bench.effort.flight, SHORT))
+        long, short = (
+            script_scenario(bench.folder, script, duration)
+            for duration in (bench.effort.flight, SHORT)
+        )
         yield from _rows(bench, script, long, short)
 
 
@@ -71,14 +76,30 @@ def _rows(bench: Bench, script: str, long: Scenario, short: Scenario) -> Iterato
     log = bench.folder / "run.mcap"
     many, few = _ticks(long, log), _ticks(short, log)  # warms up, too
     bare = Bare(script, many - 1)
-    works = {"short": _run(short, log), "long": _run(long, log), "load": bare.load, "bare": bare.fly}
+    works = {
+        "short": _run(short, log),
+        "long": _run(long, log),
+        "load": bare.load,
+        "bare": bare.fly,
+    }
     found = interleaved(bench.effort.rounds, works)
-    ticks = [(more - less) / (many - few) for more, less in zip(found["long"], found["short"], strict=True)]
+    ticks = [
+        (more - less) / (many - few)
+        for more, less in zip(found["long"], found["short"], strict=True)
+    ]
     steps = [each / (many - 1) for each in found["bare"]]
     starts = [less - tick * few for less, tick in zip(found["short"], ticks, strict=True)]
     ratios = [tick.cpu / step.cpu for tick, step in zip(ticks, steps, strict=True)]
     spread = f"ratios by round {min(ratios):.2f} to {max(ratios):.2f}"
-    yield _row(f"{script}: run, CPU a tick", "us", _cpu(ticks, 1e6), "bare JSBSim loop", _cpu(steps, 1e6), ASKED, spread)
+    yield _row(
+        f"{script}: run, CPU a tick",
+        "us",
+        _cpu(ticks, 1e6),
+        "bare JSBSim loop",
+        _cpu(steps, 1e6),
+        ASKED,
+        spread,
+    )
     walls = [1e6 * tick.wall for tick in ticks], [1e6 * step.wall for step in steps]
     yield _row(f"{script}: run, wall a tick", "us", walls[0], "bare JSBSim loop", walls[1])
     what = f"{script}: start-up and end, warm process, CPU"

@@ -16,7 +16,8 @@ from ...signals import VehicleState
 from .quaternions import rotated
 from .spline import Array
 
-_ABSURD = 1e6  # m/s^2 and rad/s; nothing that flies has more, and the arithmetic stays far from overflow
+# m/s^2 and rad/s; nothing that flies has more, and the arithmetic stays far from overflow
+_ABSURD = 1e6
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,8 +38,9 @@ def inertial(states: Sequence[VehicleState], dt: float) -> Inertial:
     for state in states:
         if not all(abs(x) <= _ABSURD for x in (*state.f_B, *state.w_NB_B)):
             raise InputError(
-                f"method 'preview' finds no plan for this flight: at {state.time:g} s force {state.f_B} m/s^2 and "
-                f"rates {state.w_NB_B} rad/s, allowed: magnitudes up to {_ABSURD:g}"
+                f"method 'preview' finds no plan for this flight: at {state.time:g} s force"
+                f" {state.f_B} m/s^2 and rates {state.w_NB_B} rad/s, allowed: magnitudes up to"
+                f" {_ABSURD:g}"
             )
     w_S = [flip(state.w_NB_B) for state in states]
     q_AS = np.array(turned(IDENTITY, w_S, dt))

@@ -1,8 +1,9 @@
 """Rotation and stage at once, near a plan that was made for one after the other.
 
-With A held in W as the plan has it, the force that a rider feels, seen in A, is linear in W's up m and in the stage's
-acceleration a: g m + R_AW a. Its squared error and all bounds make one convex programme, in which m moves on the planes that
-touch the sphere at the plan's own course. The stage can then begin a push that the cabin is going to take over.
+With A held in W as the plan has it, the force that a rider feels, seen in A, is linear in W's up m
+and in the stage's acceleration a: g m + R_AW a. Its squared error and all bounds make one convex
+programme, in which m moves on the planes that touch the sphere at the plan's own course. The stage
+can then begin a push that the cabin is going to take over.
 """
 
 import numpy as np
@@ -18,12 +19,18 @@ from .tilt_plan import slow, turning
 
 
 def together(
-    spline: Spline, up: Array, q_WA: Array, f_A: Array, parameters: PreviewParameters, limits: StageLimits
+    spline: Spline,
+    up: Array,
+    q_WA: Array,
+    f_A: Array,
+    parameters: PreviewParameters,
+    limits: StageLimits,
 ) -> tuple[Array, Array]:
     """Control points of W's up in A and of the stage in W, each (points, 3).
 
-    up: the course so far, control points; q_WA (ticks, 4): A in W on that course; f_A (ticks, 3), m/s^2: the specific force
-    that gravity and the stage should give. Raises InputError when the solver fails.
+    up: the course so far, control points; q_WA (ticks, 4): A in W on that course; f_A (ticks, 3),
+    m/s^2: the specific force that gravity and the stage should give. Raises InputError when the
+    solver fails.
     """
     n, each = spline.points, 3 * spline.points - 3
     total = 3 * n + 3 * each
@@ -33,7 +40,9 @@ def together(
     felt = _felt(spline, q_WA)
     weight = 2.0 / (parameters.force_unit**2 * spline.ticks)
     extra = block_diag([turning(spline, parameters), csc_array((3 * each, 3 * each))])
-    x = minimise(csc_array(weight * (felt.T @ felt) + extra), -weight * (felt.T @ f_A.ravel()), bounds)
+    x = minimise(
+        csc_array(weight * (felt.T @ felt) + extra), -weight * (felt.T @ f_A.ravel()), bounds
+    )
     stage = [x[3 * n + axis * each :][:n] for axis in range(3)]
     return x[: 3 * n].reshape(-1, 3), np.stack(stage, axis=1)
 
@@ -43,7 +52,9 @@ def _touching(up: Array) -> Bounds:
     length = np.linalg.norm(up, axis=1)
     rows = np.repeat(np.arange(len(up)), 3)
     bounds = Bounds()
-    bounds.equal(csc_array(((up / length[:, None]).ravel(), (rows, np.arange(3 * len(up))))), length)
+    bounds.equal(
+        csc_array(((up / length[:, None]).ravel(), (rows, np.arange(3 * len(up))))), length
+    )
     return bounds
 
 

@@ -22,21 +22,35 @@ _GRAVITY_W = np.array([0.0, 0.0, -STANDARD_GRAVITY])
 
 
 def preview(
-    states: Sequence[VehicleState], parameters: PreviewParameters, limits: StageLimits, head_S: Vec3, dt: float
+    states: Sequence[VehicleState],
+    parameters: PreviewParameters,
+    limits: StageLimits,
+    head_S: Vec3,
+    dt: float,
 ) -> Preview:
-    """Plan the platform's motion for all states of a flight, dt s apart; head_S: the rider's head from the centre, m, S.
+    """Plan the platform's motion for all states of a flight, dt s apart.
 
-    First the rotation for the whole force, at its global best, and the stage for what it leaves; then both at once from there,
-    `rounds` times. The cheapest counts. Raises InputError when there is no plan, or no solver.
+    Head_S: the rider's head from the centre, m, S.
+
+    First the rotation for the whole force, at its global best, and the stage for what it leaves;
+    then both at once from there, `rounds` times. The cheapest counts. Raises InputError when there
+    is no plan, or no solver.
     """
     spline = Spline(len(states), dt, parameters.planning_rate)
-    problem = _Problem(spline, inertial(states, dt), upright(states[0].q_NB), parameters, np.array(head_S), dt)
+    problem = _Problem(
+        spline, inertial(states, dt), upright(states[0].q_NB), parameters, np.array(head_S), dt
+    )
     up = UpPlanner(spline, parameters).plan(problem.flight.f_A)
     course = problem.course(up)
     plans = [problem.plan(course, rails(spline, course.lacking_W, limits))]
     for _ in range(parameters.rounds):
         up, stage = together(
-            spline, up, course.q_WA, problem.flight.f_A - back(course.q_WA, course.turning_W), parameters, limits
+            spline,
+            up,
+            course.q_WA,
+            problem.flight.f_A - back(course.q_WA, course.turning_W),
+            parameters,
+            limits,
         )
         course = problem.course(up)
         plans.append(problem.plan(course, stage))
@@ -45,7 +59,10 @@ def preview(
 
 @dataclass(frozen=True, slots=True)
 class _Course:
-    """The rotation at each tick: W's up in A, A in W, the cabin's rate; the head's acceleration by turning, and missing."""
+    """The rotation at each tick: W's up in A, A in W, the cabin's rate.
+
+    The head's acceleration by turning, and missing.
+    """
 
     up: Up
     q_WA: Array
@@ -79,13 +96,20 @@ class _Problem:
         q_WA = self._orientations(up)
         w_W = rotated(q_WA, self.flight.w_A + up.rate)
         turning_W = self._turning(q_WA, w_W)
-        return _Course(up, q_WA, w_W, turning_W, rotated(q_WA, self.flight.f_A) + _GRAVITY_W - turning_W)
+        return _Course(
+            up, q_WA, w_W, turning_W, rotated(q_WA, self.flight.f_A) + _GRAVITY_W - turning_W
+        )
 
     def plan(self, course: _Course, stage: Array) -> _Plan:
         """The rotation with the stage of these control points."""
         spline = self.spline
-        p_W, v_W, a_W = (np.asarray(matrix @ stage) for matrix in (spline.value, spline.slope, spline.curvature))
-        force, rate = np.sum((course.lacking_W - a_W) ** 2, axis=1), np.sum(course.up.rate**2, axis=1)
+        p_W, v_W, a_W = (
+            np.asarray(matrix @ stage) for matrix in (spline.value, spline.slope, spline.curvature)
+        )
+        force, rate = (
+            np.sum((course.lacking_W - a_W) ** 2, axis=1),
+            np.sum(course.up.rate**2, axis=1),
+        )
         cost = np.mean(force / self.parameters.force_unit**2 + rate / self.parameters.rate_unit**2)
         q_WS = product(course.q_WA, self.flight.q_AS)
         return _Plan(Preview(self.flight.time, q_WS, course.w_W, p_W, v_W, a_W), float(cost))
@@ -101,4 +125,6 @@ class _Problem:
         if not np.any(self.head_S) or len(w_W) < 2:
             return np.zeros_like(w_W)
         r_W = rotated(product(q_WA, self.flight.q_AS), np.broadcast_to(self.head_S, w_W.shape))
-        return np.asarray(np.cross(np.gradient(w_W, self.dt, axis=0), r_W) + np.cross(w_W, np.cross(w_W, r_W)))
+        return np.asarray(
+            np.cross(np.gradient(w_W, self.dt, axis=0), r_W) + np.cross(w_W, np.cross(w_W, r_W))
+        )

@@ -1,4 +1,7 @@
-"""Rotations of a whole flight at a time, one row each, scalar first; `rotation` has the same for one."""
+"""Rotations of a whole flight at a time, one row each, scalar first.
+
+`rotation` has the same for one.
+"""
 
 import numpy as np
 

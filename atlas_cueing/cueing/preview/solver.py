@@ -1,8 +1,8 @@
 """The convex programme behind both parts of the plan; the only place that knows clarabel.
 
-Clarabel (P. Goulart & Y. Chen, arXiv:2405.12762, 2024) is an interior-point method for sparse quadratic costs over cones. It is
-the one of the three tried that takes the rotation's bounds as they are, lengths of vectors; each solve costs time and memory
-in proportion to the flight.
+Clarabel (P. Goulart & Y. Chen, arXiv:2405.12762, 2024) is an interior-point method for sparse
+quadratic costs over cones. It is the one of the three tried that takes the rotation's bounds as
+they are, lengths of vectors; each solve costs time and memory in proportion to the flight.
 """
 
 from dataclasses import dataclass, field
@@ -45,20 +45,28 @@ class Bounds:
     def within(self, matrix: csc_array, bound: float) -> None:
         """|matrix x| <= bound, row by row."""
         scaled, n = matrix / bound, 2 * matrix.shape[0]
-        self._add(csc_array(vstack([scaled, -scaled])), np.ones(n), [clarabel().NonnegativeConeT(n)])
+        self._add(
+            csc_array(vstack([scaled, -scaled])), np.ones(n), [clarabel().NonnegativeConeT(n)]
+        )
 
     def length(self, matrix: csc_array, bound: float) -> None:
         """Length of each row's vector <= bound, where x are 3-vectors one after the other, to which the matrix is applied."""
         n = matrix.shape[0]
         rows = kron(matrix / bound, np.vstack([np.zeros(3), -np.eye(3)]))
-        self._add(csc_array(rows), np.tile([1.0, 0.0, 0.0, 0.0], n), [clarabel().SecondOrderConeT(4)] * n)
+        self._add(
+            csc_array(rows), np.tile([1.0, 0.0, 0.0, 0.0], n), [clarabel().SecondOrderConeT(4)] * n
+        )
 
     def among(self, before: int, total: int) -> "Bounds":
         """The same bounds where x is part of a longer vector of `total` unknowns and begins after the first `before`."""
         padded = []
         for rows in self.rows:
             m, n = rows.shape
-            padded.append(csc_array(hstack([csc_array((m, before)), rows, csc_array((m, total - before - n))])))
+            padded.append(
+                csc_array(
+                    hstack([csc_array((m, before)), rows, csc_array((m, total - before - n))])
+                )
+            )
         return Bounds(padded, list(self.sides), list(self.cones))
 
     def __add__(self, other: "Bounds") -> "Bounds":
@@ -71,18 +79,24 @@ class Bounds:
 
 
 def minimise(quadratic: csc_array, linear: Array, bounds: Bounds) -> Array:
-    """The x that makes x.quadratic x / 2 + linear.x least within the bounds. Raises InputError when there is no telling."""
+    """The x that makes x.quadratic x / 2 + linear.x least within the bounds.
+
+    Raises InputError when there is no telling.
+    """
     module = clarabel()
     settings = module.DefaultSettings()
-    settings.verbose, settings.max_threads, settings.direct_solve_method = False, 1, "qdldl"  # the same plan to the last bit
+    # the same plan to the last bit
+    settings.verbose, settings.max_threads, settings.direct_solve_method = False, 1, "qdldl"
     size = float(np.max(np.abs(linear), initial=0.0)) or 1.0
     rows, sides = csc_matrix(vstack(bounds.rows)), np.concatenate(bounds.sides)
     upper = csc_matrix(triu(quadratic / size))
-    solution = module.DefaultSolver(upper, linear / size, rows, sides, bounds.cones, settings).solve()
+    solution = module.DefaultSolver(
+        upper, linear / size, rows, sides, bounds.cones, settings
+    ).solve()
     x = np.asarray(solution.x, dtype=np.float64)
     if str(solution.status) not in _SOLVED or not np.all(np.isfinite(x)):
         raise InputError(
-            f"method 'preview' found no plan for this flight: clarabel ended {solution.status} after {solution.iterations} "
-            "steps; use another method, or another planning_rate_hz"
+            f"method 'preview' found no plan for this flight: clarabel ended {solution.status}"
+            f" after {solution.iterations} steps; use another method, or another planning_rate_hz"
         )
     return x

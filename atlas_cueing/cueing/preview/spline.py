@@ -1,9 +1,10 @@
 """Cubic splines over a whole flight, sampled at its ticks: what a plan is made of.
 
-Uniform cubic B-splines (de Boor, A Practical Guide to Splines, 1978). The curve is a weighted mean of four control points,
-its slope one of three of their differences over the knot interval, its second derivative runs straight from one second
-difference to the next, and its third is a third difference over a whole interval. So bounds on control points and differences
-are bounds on the curve at all times, and everything a plan needs is a sparse matrix of few diagonals.
+Uniform cubic B-splines (de Boor, A Practical Guide to Splines, 1978). The curve is a weighted mean
+of four control points, its slope one of three of their differences over the knot interval, its
+second derivative runs straight from one second difference to the next, and its third is a third
+difference over a whole interval. So bounds on control points and differences are bounds on the
+curve at all times, and everything a plan needs is a sparse matrix of few diagonals.
 """
 
 from typing import TypeAlias
@@ -28,7 +29,12 @@ class Spline:
         tick = np.arange(ticks)
         self._first = np.minimum(tick // each, intervals - 1)
         s = self._share = tick / each - self._first
-        self.value = self._sampled((1 - s) ** 3 / 6, (3 * s**3 - 6 * s**2 + 4) / 6, (1 + 3 * (s + s**2 - s**3)) / 6, s**3 / 6)
+        self.value = self._sampled(
+            (1 - s) ** 3 / 6,
+            (3 * s**3 - 6 * s**2 + 4) / 6,
+            (1 + 3 * (s + s**2 - s**3)) / 6,
+            s**3 / 6,
+        )
         slopes = (-((1 - s) ** 2) / 2, (3 * s**2 - 4 * s) / 2, (1 + 2 * s - 3 * s**2) / 2, s**2 / 2)
         self.slope = self._sampled(*slopes) / self.interval
         self.curvature = self._sampled(1 - s, 3 * s - 2, 1 - 3 * s, s) / self.interval**2
@@ -44,13 +50,18 @@ class Spline:
         """From the second differences (points - 2) to the second derivative at the ticks: straight lines between knots."""
         s, rows = self._share, np.repeat(np.arange(self.ticks), 2)
         columns = (self._first[:, None] + np.arange(2)).ravel()
-        return csc_array((np.stack([1 - s, s], axis=1).ravel(), (rows, columns)), shape=(self.ticks, self.points - 2))
+        return csc_array(
+            (np.stack([1 - s, s], axis=1).ravel(), (rows, columns)),
+            shape=(self.ticks, self.points - 2),
+        )
 
     def _sampled(self, *weights: Array) -> csc_array:
         """Matrix (ticks, points) with these weights of the four control points at each tick."""
         rows = np.repeat(np.arange(self.ticks), _WEIGHTS)
         columns = (self._first[:, None] + np.arange(_WEIGHTS)).ravel()
-        return csc_array((np.stack(weights, axis=1).ravel(), (rows, columns)), shape=(self.ticks, self.points))
+        return csc_array(
+            (np.stack(weights, axis=1).ravel(), (rows, columns)), shape=(self.ticks, self.points)
+        )
 
 
 def steps(n: int) -> csc_array:

@@ -14,8 +14,10 @@ from .solver import Bounds, minimise
 from .spline import Array, Spline, steps
 
 _PLANNED_SHARE = 0.98  # of every limit; smoothing keeps a little of each
-_BRAKING_SHARE = 0.55  # of acceleration and jerk towards the ends of the travel; smoothing goes there with 0.7 of each
-_SLOPES = (8.0, 4.0, 2.0)  # 1/s; of the straight lines that bound the speed towards the ends of the travel
+# of acceleration and jerk towards the ends of the travel; smoothing goes there with 0.7 of each
+_BRAKING_SHARE = 0.55
+# 1/s; of the straight lines that bound the speed towards the ends of the travel
+_SLOPES = (8.0, 4.0, 2.0)
 
 
 def rails(spline: Spline, d_W: Array, limits: StageLimits) -> Array:
@@ -47,9 +49,13 @@ def inside(spline: Spline, limits: StageLimits, axis: int) -> Bounds:
     jerk = hstack([csc_array((n - 3, 2 * n - 1)), steps(n - 2) / (h * limits.jerk[axis])])
     bounds.within(csc_array(jerk), _PLANNED_SHARE)
     for slope in _SLOPES:
-        ahead = hstack([slope * eye_array(n - 1, n, k=1), eye_array(n - 1), csc_array((n - 1, n - 2))])
+        ahead = hstack(
+            [slope * eye_array(n - 1, n, k=1), eye_array(n - 1), csc_array((n - 1, n - 2))]
+        )
         bounds.within(
-            csc_array(ahead), slope * _PLANNED_SHARE * limits.travel[axis] + _spare(slope, most[2], limits.jerk[axis])
+            csc_array(ahead),
+            slope * _PLANNED_SHARE * limits.travel[axis]
+            + _spare(slope, most[2], limits.jerk[axis]),
         )
     return bounds
 
@@ -72,7 +78,12 @@ def _tied(n: int, h: float) -> csc_array:
 
 
 def _at_rest(n: int, last: int) -> csc_array:
-    """In the centre, the speed and the acceleration zero at the start; the `last` control points one and the same."""
+    """In the centre, the speed and the acceleration zero at the start.
+
+    The `last` control points one and the same.
+    """
     last = min(last, n)
     columns = [0, n, n + 1, *range(2 * n - last, 2 * n - 1)]
-    return csc_array((np.ones(len(columns)), (np.arange(len(columns)), columns)), shape=(len(columns), 3 * n - 3))
+    return csc_array(
+        (np.ones(len(columns)), (np.arange(len(columns)), columns)), shape=(len(columns), 3 * n - 3)
+    )

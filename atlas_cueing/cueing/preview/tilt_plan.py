@@ -1,16 +1,18 @@
 """The rotation of the plan: where W's up points in A, over the whole flight.
 
-All that gravity can do for the force in a cabin depends on that direction m alone. A rider at rest feels g m in A, so the
-plan minimises, over the flight,
+All that gravity can do for the force in a cabin depends on that direction m alone. A rider at rest
+feels g m in A, so the plan minimises, over the flight,
 
-    mean( |f_A - g m|^2 / force_unit^2 + |m'|^2 / rate_unit^2 )        with |m| = 1, |m'| <= rate, |m''| <= acceleration
+    mean( |f_A - g m|^2 / force_unit^2 + |m'|^2 / rate_unit^2 )        with |m| = 1, |m'| <= rate,
+    |m''| <= acceleration
 
-where m' is what the cabin turns beyond the vehicle (a turn about m itself would only cost). |f_A - g m|^2 is linear in m on
-the sphere |m| = 1, so with |m| <= 1 instead the problem is convex: a second-order cone programme whose minimum is global and
-no more than that on the sphere. Wherever the force has a direction worth following its solution lies on the sphere, and then
-nothing is better. Where it cuts through the ball (a force that turns over faster than the rate allows), it is pushed out:
--|m| is concave, and its tangents are taken for it, again and again and with growing weight (convex-concave procedure; A. Yuille
-& A. Rangarajan, Neural Computation 15, 2003).
+where m' is what the cabin turns beyond the vehicle (a turn about m itself would only cost). |f_A -
+g m|^2 is linear in m on the sphere |m| = 1, so with |m| <= 1 instead the problem is convex: a
+second-order cone programme whose minimum is global and no more than that on the sphere. Wherever
+the force has a direction worth following its solution lies on the sphere, and then nothing is
+better. Where it cuts through the ball (a force that turns over faster than the rate allows), it is
+pushed out: -|m| is concave, and its tangents are taken for it, again and again and with growing
+weight (convex-concave procedure; A. Yuille & A. Rangarajan, Neural Computation 15, 2003).
 """
 
 from dataclasses import dataclass
@@ -24,7 +26,9 @@ from ..parameters import PreviewParameters
 from .solver import Bounds, minimise
 from .spline import Array, Spline
 
-_PLANNED_SHARE = 0.99  # of the rate and the acceleration; the rest is for the way from the control points to the unit sphere
+# of the rate and the acceleration; the rest is for the way from the control points to the unit
+# sphere
+_PLANNED_SHARE = 0.99
 _ON_SPHERE = 0.997  # least length of a control point that passes for one on the unit sphere
 _PUSHES = 20  # at most; flights that need any were done after 3 to 12
 _PUSH = 0.5  # of the pull of the force, more at each push
@@ -54,10 +58,15 @@ class UpPlanner:
 
         Raises InputError when there is none.
         """
-        pull = self._spline.value.T @ f_A * (2.0 * STANDARD_GRAVITY / (self._parameters.force_unit**2 * len(f_A)))
+        pull = (
+            self._spline.value.T
+            @ f_A
+            * (2.0 * STANDARD_GRAVITY / (self._parameters.force_unit**2 * len(f_A)))
+        )
         points = self._solved(pull)
         strength = np.linalg.norm(pull, axis=1, keepdims=True)
-        strength = np.maximum(strength, np.mean(strength) or 1.0)  # it has to be pushed where there is no force, too
+        # it has to be pushed where there is no force, too
+        strength = np.maximum(strength, np.mean(strength) or 1.0)
         aside = np.linalg.eigh(pull.T @ pull)[1][:, 0]  # across the plane that the force turns in
         for push in range(1, _PUSHES + 1):
             length = np.linalg.norm(points, axis=1, keepdims=True)
@@ -67,8 +76,9 @@ class UpPlanner:
             outward /= np.linalg.norm(outward, axis=1, keepdims=True)
             points = self._solved(pull + _PUSH * push * strength * outward)
         raise InputError(
-            "method 'preview' found no plan for this flight: the force turns over and over without a direction that the cabin "
-            f"could keep; use another method, or an align_rate_deg_s above {np.degrees(self._parameters.rate):g}"
+            "method 'preview' found no plan for this flight: the force turns over and over without"
+            " a direction that the cabin could keep; use another method, or an align_rate_deg_s"
+            f" above {np.degrees(self._parameters.rate):g}"
         )
 
     def _solved(self, pull: Array) -> Array:
@@ -84,7 +94,10 @@ def sampled(spline: Spline, points: Array) -> Up:
 
 
 def slow(spline: Spline, parameters: PreviewParameters) -> Bounds:
-    """Bounds of rate and acceleration on the control points of W's up; at rest when the flight begins."""
+    """Bounds of rate and acceleration on the control points of W's up.
+
+    At rest when the flight begins.
+    """
     bounds = Bounds()
     bounds.zero(csc_array(kron(spline.difference(1)[:2], eye_array(3))))
     bounds.length(spline.difference(1), _PLANNED_SHARE * parameters.rate)

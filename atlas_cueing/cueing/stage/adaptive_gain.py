@@ -16,7 +16,10 @@ class AdaptiveGain:
     """
 
     def __init__(self, dt: float, memory: float, first: float, doubt: float) -> None:
-        """Ticks of dt (s) count for `memory` (s); the share begins as `first`, which counts for <a^2> = doubt, m^2/s^4."""
+        """Ticks of dt (s) count for `memory` (s).
+
+        The share begins as `first`, which counts for <a^2> = doubt, m^2/s^4.
+        """
         self._forget = 1.0 - exp(-dt / memory)
         self._first, self._doubt = first, doubt
         self._useful = self._spent = 0.0

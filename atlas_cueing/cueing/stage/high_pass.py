@@ -4,8 +4,9 @@ A stage of finite travel can give only the onset of a lasting demand d:
 
     u = d s / (s + omega_r)        p = u / (s + omega)^2        a = p''
 
-brakes with the natural frequency omega and comes back to the centre with omega_r. The demand is limited beforehand, by
-A tanh(d / A), so that no demand whatever, by the L1 norms of the filter, can drive p, v or a out of their bounds.
+brakes with the natural frequency omega and comes back to the centre with omega_r. The demand is
+limited beforehand, by A tanh(d / A), so that no demand whatever, by the L1 norms of the filter, can
+drive p, v or a out of their bounds.
 """
 
 # mypyc: runs every tick
@@ -18,7 +19,9 @@ from ..damping import CriticalDamping
 class HighPass:
     """One axis of the stage: demand (m/s^2) in, position, velocity and acceleration out."""
 
-    def __init__(self, dt: float, onset: float, recentre: float, bandwidth: float, bound: float) -> None:
+    def __init__(
+        self, dt: float, onset: float, recentre: float, bandwidth: float, bound: float
+    ) -> None:
         """Parameters as in StageParameters, for one axis; `bound` is A, m/s^2; dt in s."""
         self._omega, self._bound = onset, bound
         self._braking = CriticalDamping(onset, dt)
@@ -28,7 +31,10 @@ class HighPass:
         self._started = False
 
     def step(self, demand: float) -> tuple[float, float, float]:
-        """Position, velocity and acceleration after one tick; a demand that is there at the start counts as lasting."""
+        """Position, velocity and acceleration after one tick.
+
+        A demand that is there at the start counts as lasting.
+        """
         limited = self._bound * tanh(demand / self._bound)
         if not self._started:
             self._demand = limited
@@ -38,7 +44,9 @@ class HighPass:
         self._lasting += self._drain * (self._demand - self._lasting)
         before, self._u = self._u, self._demand - self._lasting
         omega = self._omega
-        self._p, self._v = self._braking.step(self._p, self._v, 0.5 * (before + self._u) / (omega * omega))
+        self._p, self._v = self._braking.step(
+            self._p, self._v, 0.5 * (before + self._u) / (omega * omega)
+        )
         return self._p, self._v, self._u - omega * (2.0 * self._v + omega * self._p)
 
     @property

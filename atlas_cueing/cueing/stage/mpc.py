@@ -1,9 +1,10 @@
 """The stage by plans that reach to a standstill, made anew some fifty times a second.
 
-The demand is limited and freed of its lasting part by an onset filter, whose motion is only imagined: it need not stay inside
-the travel, and tells what share of the demand is worth moving for (`horizon_share`). A plan for that share follows the same
-filter where the limits allow and does the next best where they do not (`horizon_problem`). It is flown until the next one; when
-there is none, to its end, where the stage stands.
+The demand is limited and freed of its lasting part by an onset filter, whose motion is only
+imagined: it need not stay inside the travel, and tells what share of the demand is worth moving for
+(`horizon_share`). A plan for that share follows the same filter where the limits allow and does the
+next best where they do not (`horizon_problem`). It is flown until the next one; when there is none,
+to its end, where the stage stands.
 """
 
 # mypyc: runs every tick
@@ -32,7 +33,8 @@ class HorizonAxis:
     ) -> None:
         """Onset, recentre and bandwidth as in StageParameters, for one axis; dt in s.
 
-        The first plan is made `delay` ticks late, so that three axes need not plan in the same tick.
+        The first plan is made `delay` ticks late, so that three axes need not plan in the same
+        tick.
         """
         self._dt = dt
         self._period = planning_ticks(dt, parameters.planning_rate)
@@ -40,7 +42,9 @@ class HorizonAxis:
         bound = parameters.excess * demand_bound(onset, *limits[:3])
         self._imagined = HighPass(dt, onset, recentre, bandwidth, bound)
         self._useful = AdaptiveGain(dt, parameters.memory, parameters.first_share, parameters.doubt)
-        self.problem = HorizonProblem([ticks * dt for ticks in self._ticks], onset, parameters.fade, limits)
+        self.problem = HorizonProblem(
+            [ticks * dt for ticks in self._ticks], onset, parameters.fade, limits
+        )
         self._to_next = delay % self._period
         self._p = self._v = self._a = 0.0
         self._course: Plan | None = None  # what is flown; none while the stage stands
@@ -48,7 +52,10 @@ class HorizonAxis:
         self._jerk = 0.0  # of this block
 
     def step(self, demand: float) -> tuple[float, float, float]:
-        """Position, velocity and acceleration after one tick; a demand that is there at the start counts as lasting."""
+        """Position, velocity and acceleration after one tick.
+
+        A demand that is there at the start counts as lasting.
+        """
         share = self._useful.share
         self._useful.update(demand, self._imagined.step(demand)[2])
         if not self._to_next:

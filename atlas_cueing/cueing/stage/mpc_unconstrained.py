@@ -1,13 +1,16 @@
-"""The plan of one stage axis where no limit is met: the optimum in closed form, linear in the state.
+"""The plan of one stage axis where no limit is met.
 
-With the unknowns x, the state s = (p, v, a, d) and the one equation rows_e x + offset_e s = 0 (a standstill at the end), the
-least x hessian x / 2 + x gradient s has a multiplier y with
+The optimum in closed form, linear in the state.
+
+With the unknowns x, the state s = (p, v, a, d) and the one equation rows_e x + offset_e s = 0 (a
+standstill at the end), the least x hessian x / 2 + x gradient s has a multiplier y with
 
     | hessian  rows_e^T | | x |     | gradient |
     | rows_e      0     | | y | = - | offset_e | s
 
-(Boyd & Vandenberghe, Convex Optimization, 2004, section 10.1.1). If this x keeps all limits, it is the optimum with them, too,
-and nothing has to be searched for; so it is for nine plans of ten in ordinary flights.
+(Boyd & Vandenberghe, Convex Optimization, 2004, section 10.1.1). If this x keeps all limits, it is
+the optimum with them, too, and nothing has to be searched for; so it is for nine plans of ten in
+ordinary flights.
 """
 
 # mypyc: runs every tick
@@ -22,7 +25,10 @@ State = tuple[float, float, float, float]
 
 
 class Plan:
-    """The jerk (m/s^3) of each block, linear in a state: worked out when asked for, as few get beyond the first."""
+    """The jerk (m/s^3) of each block, linear in a state.
+
+    Worked out when asked for, as few get beyond the first.
+    """
 
     def __init__(self, rows: list[State], state: State) -> None:
         """Block k has the jerk rows[k] . state."""
@@ -42,16 +48,23 @@ class Plan:
 class UnlimitedPlan:
     """The plan without limits, and whether the limits would have changed it."""
 
-    def __init__(self, durations: Sequence[float], cost: Array, bounded: Array, bound: Array) -> None:
+    def __init__(
+        self, durations: Sequence[float], cost: Array, bounded: Array, bound: Array
+    ) -> None:
         """Blocks of these durations (s); cost, bounded and bound as `horizon_problem` makes them for (p, v, a, d, x)."""
         m = len(durations) - 1
         equation = bounded[-1]
-        system = np.block([[cost[4:, 4:], equation[4:, None]], [equation[None, 4:], np.zeros((1, 1))]])
+        system = np.block(
+            [[cost[4:, 4:], equation[4:, None]], [equation[None, 4:], np.zeros((1, 1))]]
+        )
         x = np.linalg.solve(system, -np.vstack([cost[4:, :4], equation[:4]]))[:m]  # (m, 4)
-        self._used = (bounded[:-1, :4] + bounded[:-1, 4:] @ x) / bound[:-1, None]  # share of each bound, by state
-        self._first = _state(self._used[m])  # of the first block's jerk, which comes behind the m unknowns
+        # share of each bound, by state
+        self._used = (bounded[:-1, :4] + bounded[:-1, 4:] @ x) / bound[:-1, None]
+        # of the first block's jerk, which comes behind the m unknowns
+        self._first = _state(self._used[m])
         self._worst = _state(np.max(np.abs(np.delete(self._used, m, axis=0)), axis=0))
-        ends = np.vstack([np.array([0.0, 0.0, 1.0, 0.0]), x, np.zeros(4)])  # acceleration at the end of each block
+        # acceleration at the end of each block
+        ends = np.vstack([np.array([0.0, 0.0, 1.0, 0.0]), x, np.zeros(4)])
         rows = (np.diff(ends, axis=0) / np.asarray(durations)[:, None]).tolist()
         self._jerk: list[State] = [(p, v, a, d) for p, v, a, d in rows]
 
@@ -62,13 +75,27 @@ class UnlimitedPlan:
     def is_free(self, state: State) -> bool:
         """Whether it keeps every limit.
 
-        Nearly all states are settled by the first jerk, which is the nearest to its limit since it has to catch up with a
-        demand that jumps, and by a bound on all the others at once.
+        Nearly all states are settled by the first jerk, which is the nearest to its limit since it
+        has to catch up with a demand that jumps, and by a bound on all the others at once.
         """
         first, worst = self._first, self._worst
-        if abs(first[0] * state[0] + first[1] * state[1] + first[2] * state[2] + first[3] * state[3]) > 1.0:
+        if (
+            abs(
+                first[0] * state[0]
+                + first[1] * state[1]
+                + first[2] * state[2]
+                + first[3] * state[3]
+            )
+            > 1.0
+        ):
             return False
-        if worst[0] * abs(state[0]) + worst[1] * abs(state[1]) + worst[2] * abs(state[2]) + worst[3] * abs(state[3]) <= 1.0:
+        if (
+            worst[0] * abs(state[0])
+            + worst[1] * abs(state[1])
+            + worst[2] * abs(state[2])
+            + worst[3] * abs(state[3])
+            <= 1.0
+        ):
             return True
         return bool(np.max(np.abs(self._used @ np.array(state))) <= 1.0)
 

@@ -19,13 +19,16 @@ _GRAVITY_W: Vec3 = (0.0, 0.0, -STANDARD_GRAVITY)
 
 
 StageAxis: TypeAlias = HorizonAxis | HighPass
-"""One axis of the stage: `step` gives position (m), velocity and acceleration one tick on, for a demand in m/s^2."""
+"""One axis of the stage: `step` gives position (m), velocity and acceleration one tick on, for a
+    demand in m/s^2."""
 
 
 class StageCueing:
     """Stage position, velocity and acceleration (W) from the cue's orientation and the vehicle's specific force."""
 
-    def __init__(self, dt: float, parameters: StageParameters, limits: StageLimits, head_S: Vec3) -> None:
+    def __init__(
+        self, dt: float, parameters: StageParameters, limits: StageLimits, head_S: Vec3
+    ) -> None:
         """head_S: the rider's head from the sphere centre, m, frame S; dt in s."""
         self._dt, self._gain = dt, parameters.force_gain
         self._head, self._centred = head_S, head_S == ZERO
@@ -60,8 +63,14 @@ class StageCueing:
 def _axis(i: int, dt: float, parameters: StageParameters, limits: StageLimits) -> StageAxis:
     """The planner of axis i."""
     onset, recentre, bandwidth = parameters.onset[i], parameters.recentre[i], parameters.bandwidth
-    travel, speed, acceleration = min(limits.travel[i], parameters.travel[i]), limits.speed[i], limits.acceleration[i]
+    travel, speed, acceleration = (
+        min(limits.travel[i], parameters.travel[i]),
+        limits.speed[i],
+        limits.acceleration[i],
+    )
     if parameters.horizon is None:
-        return HighPass(dt, onset, recentre, bandwidth, demand_bound(onset, travel, speed, acceleration))
+        return HighPass(
+            dt, onset, recentre, bandwidth, demand_bound(onset, travel, speed, acceleration)
+        )
     limit = travel, speed, acceleration, limits.jerk[i]
     return HorizonAxis(dt, onset, recentre, bandwidth, limit, parameters.horizon, i)

@@ -30,7 +30,8 @@ class OperatorInputs:
     buttons: what the operator has pressed since the last call: engage, hold, park, reset.
     signals: how often the process has been asked to end; the first parks, the second stops at once.
     duration: s of real time until the platform parks by itself.
-    attended: somebody can engage and reset; otherwise the run engages by itself and is over when it has parked or stopped.
+    attended: somebody can engage and reset; otherwise the run engages by itself and is over when it
+        has parked or stopped.
     """
 
     buttons: Callable[[], Iterable[str]] = tuple
@@ -41,7 +42,10 @@ class OperatorInputs:
 
 @dataclass(slots=True)
 class RunOutcome:
-    """How a run ended: result is ok, vehicle_failed, input_lost, fault or stopped; `faults` and `dropped` samples counted."""
+    """How a run ended: result is ok, vehicle_failed, input_lost, fault or stopped.
+
+    `faults` and `dropped` samples counted.
+    """
 
     result: str = "ok"
     reason: str = ""
@@ -55,9 +59,14 @@ class RunOutcome:
 
 
 class LiveController:
-    """Holds ride, guard and source together. `tick` never raises, and every command is inside every limit."""
+    """Holds ride, guard and source together.
 
-    def __init__(self, ride: PlatformController, guard: Guard, source: Source, wishes: OperatorInputs) -> None:
+    `tick` never raises, and every command is inside every limit.
+    """
+
+    def __init__(
+        self, ride: PlatformController, guard: Guard, source: Source, wishes: OperatorInputs
+    ) -> None:
         """Parked, with nothing heard of the vehicle yet."""
         self._ride, self._guard, self._source, self._wishes = ride, guard, source, wishes
         self._supervisor = InputMonitor()
@@ -84,7 +93,9 @@ class LiveController:
         self._source.pin()
         self._take(Event.ENGAGE, "asked to engage")
 
-    def tick(self, time: float, elapsed: float, lateness: float, missed_in_a_row: int) -> tuple[Tick, Command]:
+    def tick(
+        self, time: float, elapsed: float, lateness: float, missed_in_a_row: int
+    ) -> tuple[Tick, Command]:
         """The next tick, at `time` of the platform and `elapsed` of the clock (s), that began `lateness` s too late."""
         tick, vehicle = None, replace(self._known, time=time)
         try:
@@ -92,7 +103,8 @@ class LiveController:
             self._judge_punctuality(lateness, missed_in_a_row)
             vehicle = self._known = self._vehicle(time)
             tick = None if self.state in _FAULT else self._ride.step(vehicle)
-        except Exception as error:  # noqa: BLE001 - whatever went wrong, the platform must come to a stop
+        except Exception as error:  # noqa: BLE001
+            # Whatever went wrong, the platform must come to a stop
             self._fail(f"{type(error).__name__}: {error}")
         command = self._guard.check(command_of(tick)) if tick else self._guard.stop(time)
         if tick is None or self._guard.stopping:
@@ -102,12 +114,17 @@ class LiveController:
         return tick, command
 
     def _judge(self, elapsed: float) -> None:
-        """Everything that may change the state; arrivals first, since a source that raises keeps the rest from happening."""
+        """Everything that may change the state.
+
+        Arrivals first, since a source that raises keeps the rest from happening.
+        """
         if self._ride.arrived():
             self._take(Event.ARRIVED, "")
         self._listen(elapsed)
         self._read(elapsed)
-        for event, reason in self._supervisor.watch(elapsed, self.state, self._ride.moving, self.intake):
+        for event, reason in self._supervisor.watch(
+            elapsed, self.state, self._ride.moving, self.intake
+        ):
             self._take(event, reason)
         if self._finishing and self.state in _AWAY:
             self._take(Event.PARK, "the run is over")
@@ -116,9 +133,14 @@ class LiveController:
     def _judge_punctuality(self, lateness: float, missed_in_a_row: int) -> None:
         if lateness > MOST_LATE:
             late, most = 1e3 * lateness, 1e3 * MOST_LATE
-            self._fail(f"a tick began {late:.1f} ms late, allowed: at most {most:.0f} ms; {_REMEDY}")
+            self._fail(
+                f"a tick began {late:.1f} ms late, allowed: at most {most:.0f} ms; {_REMEDY}"
+            )
         elif missed_in_a_row > MOST_MISSED:
-            self._fail(f"{missed_in_a_row} deadlines missed in a row, allowed: at most {MOST_MISSED}; {_REMEDY}")
+            self._fail(
+                f"{missed_in_a_row} deadlines missed in a row, allowed: at most {MOST_MISSED};"
+                f" {_REMEDY}"
+            )
 
     def _listen(self, elapsed: float) -> None:
         """To the operator, to signals, and to the clock."""
@@ -152,7 +174,10 @@ class LiveController:
             self._ride.begin(self.intake.vehicle)
 
     def _vehicle(self, time: float) -> VehicleState:
-        """What is known of the vehicle, as at `time`; the first attitude takes the sign that goes on from none."""
+        """What is known of the vehicle, as at `time`.
+
+        The first attitude takes the sign that goes on from none.
+        """
         known = self.intake.vehicle or self._known
         return replace(known, time=time, q_NB=continuous(known.q_NB, self._known.q_NB))
 
@@ -171,6 +196,10 @@ class LiveController:
         self.changes.append((self.state, reason))
         if event is Event.RESET:
             self._guard.start(standing(self._before))
-        if not self._wishes.attended and self.state in (State.PARKED, State.STOPPED) and not self._finishing:
+        if (
+            not self._wishes.attended
+            and self.state in (State.PARKED, State.STOPPED)
+            and not self._finishing
+        ):
             self.ended.because("input_lost", "parked, since the input was lost")
             self._finishing = True

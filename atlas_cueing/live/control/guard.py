@@ -26,9 +26,12 @@ from ...errors import InputError
 from ...rotation import ZERO, Vec3
 from ...signals import StageLimits, WheelLimits
 
-_ROUNDING = 5e-7  # share by which a limit may be passed, as differences of rounded numbers do; the stop is flown with it, too
+# share by which a limit may be passed, as differences of rounded numbers do; the stop is flown with
+# it, too
+_ROUNDING = 5e-7
 _EARLY = 1e-6  # share of a tick by which a command may be early, beside the rounding of its time
-_LATE = 0.1  # s; a command may come so much late; after that the drives were left alone too long (assumed)
+# s; a command may come so much late; after that the drives were left alone too long (assumed)
+_LATE = 0.1
 _AGES = 1e10  # s; no clock shows more, and below it ticks of 1 ms are told apart
 
 _Checks = tuple[tuple[str, float, float, float], ...]  # what, value, lowest and highest allowed
@@ -52,28 +55,39 @@ class Command:
 class Guard:
     """Lets fit commands through and stops the platform, for good, at the first one that is not.
 
-    It starts at rest in the centre, at whatever time the first command has. Commands follow each other by one tick of motion;
-    their times by a tick or more, for a late one only makes the same differences flatter. Numbers that are not finite
-    are inside no limits.
+    It starts at rest in the centre, at whatever time the first command has. Commands follow each
+    other by one tick of motion; their times by a tick or more, for a late one only makes the same
+    differences flatter. Numbers that are not finite are inside no limits.
     """
 
     def __init__(self, dt: float, wheel_limits: WheelLimits, stage_limits: StageLimits) -> None:
-        """Tick dt in s. Raises InputError for a tick or limits that are not positive, or leave no travel between two ticks."""
+        """Tick dt in s.
+
+        Raises InputError for a tick or limits that are not positive, or leave no travel between two
+        ticks.
+        """
         wheels, stage = wheel_limits, stage_limits
         self._dt = dt
         self._wheels = [
             _Wheel(f"wheel {name} ", dt, *limit)
-            for name, *limit in zip("123", wheels.speed, wheels.acceleration, wheels.jerk, strict=True)
+            for name, *limit in zip(
+                "123", wheels.speed, wheels.acceleration, wheels.jerk, strict=True
+            )
         ]
         self._rails = [
             _Rail(f"stage {name} ", dt, *limit)
-            for name, *limit in zip("xyz", stage.speed, stage.acceleration, stage.jerk, stage.travel, strict=True)
+            for name, *limit in zip(
+                "xyz", stage.speed, stage.acceleration, stage.jerk, stage.travel, strict=True
+            )
         ]
         self._begin(Command(0.0, ZERO, ZERO, ZERO, ZERO, ZERO))
         self._earliest, self._latest = -_AGES, _AGES
 
     def start(self, command: Command) -> None:
-        """Open (again) at a command that stands still inside the travel, at any time. Raises InputError for any other one."""
+        """Open (again) at a command that stands still inside the travel, at any time.
+
+        Raises InputError for any other one.
+        """
         places = zip(self._rails, command.p_WS_W, strict=True)
         checks = [("", (("time", command.time, -_AGES, _AGES),))]
         checks += [(rail.name, (("position", p, -rail.travel, rail.travel),)) for rail, p in places]
@@ -83,7 +97,10 @@ class Guard:
         self._begin(command)
 
     def check(self, command: Command) -> Command:
-        """The command if it is fit to follow the last output; otherwise, and from then on, the next tick of the stop."""
+        """The command if it is fit to follow the last output.
+
+        Otherwise, and from then on, the next tick of the stop.
+        """
         if not self.stopping:
             try:
                 breach = _breach(self._checks(command))
@@ -96,7 +113,10 @@ class Guard:
         return self.stop(command.time)
 
     def stop(self, time: float) -> Command:
-        """The next tick of the stop, for a tick at `time` (s) that has no command; from then on every tick is one."""
+        """The next tick of the stop, for a tick at `time` (s) that has no command.
+
+        From then on every tick is one.
+        """
         if not self.stopping:
             self._latch(f"no command at {time} s")
         self._ticks += 1
@@ -104,12 +124,17 @@ class Guard:
             time = self._last.time + self._dt
         ways = [stop.at(self._ticks * self._dt) for stop in self._stops]
         (_, w1, b1), (_, w2, b2), (_, w3, b3), (px, vx, ax), (py, vy, ay), (pz, vz, az) = ways
-        self._put_out(Command(time, (w1, w2, w3), (b1, b2, b3), (px, py, pz), (vx, vy, vz), (ax, ay, az)))
+        self._put_out(
+            Command(time, (w1, w2, w3), (b1, b2, b3), (px, py, pz), (vx, vy, vz), (ax, ay, az))
+        )
         return self._last
 
     @property
     def reason(self) -> str:
-        """Why it stops: quantity, value, lower <= value <= upper, time in s; empty while it does not."""
+        """Why it stops: quantity, value, lower <= value <= upper, time in s.
+
+        Empty while it does not.
+        """
         return self._reason
 
     @property
@@ -143,10 +168,23 @@ class Guard:
         """All that has to hold for the command to follow the last output, axis by axis."""
         last = self._last
         yield "", (("time", command.time, self._earliest, self._latest),)
-        before, after = (last.wheel_speed, last.wheel_acceleration), (command.wheel_speed, command.wheel_acceleration)
+        before, after = (
+            (last.wheel_speed, last.wheel_acceleration),
+            (
+                command.wheel_speed,
+                command.wheel_acceleration,
+            ),
+        )
         for wheel, v0, a0, v, a in zip(self._wheels, *before, *after, strict=True):
             yield wheel.name, wheel.checks(v0, a0, v, a)
-        placed, place = (last.p_WS_W, last.v_WS_W, last.a_WS_W), (command.p_WS_W, command.v_WS_W, command.a_WS_W)
+        placed, place = (
+            (last.p_WS_W, last.v_WS_W, last.a_WS_W),
+            (
+                command.p_WS_W,
+                command.v_WS_W,
+                command.a_WS_W,
+            ),
+        )
         for rail, p0, v0, a0, p, v, a in zip(self._rails, *placed, *place, strict=True):
             yield rail.name, rail.checks(v0, a0, v, a)
             yield rail.name, rail.place_checks(p0, v0, a0, p, v, a)
@@ -155,13 +193,23 @@ class Guard:
 class _Wheel:
     """One axis whose position is free: its limits, with room for rounding, from one tick to the next."""
 
-    def __init__(self, name: str, dt: float, speed: float, acceleration: float, jerk: float) -> None:
-        for what, value in (("tick", dt), ("speed", speed), ("acceleration", acceleration), ("jerk", jerk)):
+    def __init__(
+        self, name: str, dt: float, speed: float, acceleration: float, jerk: float
+    ) -> None:
+        for what, value in (
+            ("tick", dt),
+            ("speed", speed),
+            ("acceleration", acceleration),
+            ("jerk", jerk),
+        ):
             if not 0.0 < value < inf:
                 raise InputError(f"{name}{what} {value:g}, allowed: 0 < value < inf")
         self.name, self.dt = name, dt
-        self.speed, self.acceleration, self.jerk = (x * (1.0 + _ROUNDING) for x in (speed, acceleration, jerk))
-        self.reach = self.jerk * (1.0 + _ROUNDING)  # for J in speed and position: rounding there, and h - |D| / J > 0
+        self.speed, self.acceleration, self.jerk = (
+            x * (1.0 + _ROUNDING) for x in (speed, acceleration, jerk)
+        )
+        # for J in speed and position: rounding there, and h - |D| / J > 0
+        self.reach = self.jerk * (1.0 + _ROUNDING)
 
     def checks(self, v0: float, a0: float, v: float, a: float) -> _Checks:
         """From speed v0 and acceleration a0 to v and a, one tick later."""
@@ -185,10 +233,13 @@ class _Wheel:
 class _Rail(_Wheel):
     """One axis of the stage: as a wheel, but inside its travel.
 
-    Between two ticks a motion leaves the line between its ends by A h^2 / 8 at most: so much of the travel is not used.
+    Between two ticks a motion leaves the line between its ends by A h^2 / 8 at most: so much of the
+    travel is not used.
     """
 
-    def __init__(self, name: str, dt: float, speed: float, acceleration: float, jerk: float, travel: float) -> None:
+    def __init__(
+        self, name: str, dt: float, speed: float, acceleration: float, jerk: float, travel: float
+    ) -> None:
         super().__init__(name, dt, speed, acceleration, jerk)
         unused = acceleration * dt * dt / 8.0
         if not unused < travel < inf:
@@ -196,10 +247,17 @@ class _Rail(_Wheel):
         self.travel = travel * (1.0 + _ROUNDING) - unused
         self._blur = 4.0 * ulp(travel)
 
-    def place_checks(self, p0: float, v0: float, a0: float, p: float, v: float, a: float) -> _Checks:
+    def place_checks(
+        self, p0: float, v0: float, a0: float, p: float, v: float, a: float
+    ) -> _Checks:
         """From position p0, speed v0 and acceleration a0 to p, v and a, one tick later, if v and a are fit."""
         h, end, stop = self.dt, self.travel, self.stop(p, v, a)
-        way, sag, old, new = self.speed * h, 0.5 * self.acceleration * h * h, p0 + h * v0, p0 + h * v
+        way, sag, old, new = (
+            self.speed * h,
+            0.5 * self.acceleration * h * h,
+            p0 + h * v0,
+            p0 + h * v,
+        )
         low, high = self._reachable(p0, v0, a0, v, a)
         return (
             ("position", p, -end, end),
@@ -211,26 +269,34 @@ class _Rail(_Wheel):
             ("turning point", stop.turning_point, -end, end),
         )
 
-    def _reachable(self, p0: float, v0: float, a0: float, v: float, a: float) -> tuple[float, float]:
+    def _reachable(
+        self, p0: float, v0: float, a0: float, v: float, a: float
+    ) -> tuple[float, float]:
         """Lowest and highest p to which a jerk-limited tick can lead."""
         h, D = self.dt, a - a0
         m = 0.5 * h * (a0 + a) - (v - v0)
         c, skew = p0 + 0.5 * h * (v0 + v) - h * h * D / 8.0, D / self.reach
-        return c - 0.5 * self._moment(m, h + skew) - self._blur, c + 0.5 * self._moment(m, h - skew) + self._blur
+        return (
+            c - 0.5 * self._moment(m, h + skew) - self._blur,
+            c + 0.5 * self._moment(m, h - skew) + self._blur,
+        )
 
     def _moment(self, m: float, d: float) -> float:
         """f(d) of the module's text."""
-        return self.reach * (self.dt * self.dt * self.dt / 12.0 - d * d * d / 48.0) - m * m / (self.reach * d)
+        return self.reach * (self.dt * self.dt * self.dt / 12.0 - d * d * d / 48.0) - m * m / (
+            self.reach * d
+        )
 
 
 class _Stop:
     """The shortest jerk-limited way from (p, v, a) to rest at `end`.
 
-    With u = v + a|a| / 2J, the speed if a were brought to zero, v and a times u's sign brake downwards, along a trapezoid that
-    begins with no acceleration and the speed s = v + a^2 / 2J, at a time -a / J after now: a ramp of min(A / J, sqrt(s / J)),
-    max(s / A - A / J, 0) at full deceleration, a ramp back. (p, v, a) is a point of that trapezoid, or of its first ramp
-    drawn backwards when a speeds it up; drawn further than sqrt(2 s / J), where v was zero, it goes the other way first,
-    to the `turning_point`, which is p if it does not.
+    With u = v + a|a| / 2J, the speed if a were brought to zero, v and a times u's sign brake
+    downwards, along a trapezoid that begins with no acceleration and the speed s = v + a^2 / 2J, at
+    a time -a / J after now: a ramp of min(A / J, sqrt(s / J)), max(s / A - A / J, 0) at full
+    deceleration, a ramp back. (p, v, a) is a point of that trapezoid, or of its first ramp drawn
+    backwards when a speeds it up; drawn further than sqrt(2 s / J), where v was zero, it goes the
+    other way first, to the `turning_point`, which is p if it does not.
     """
 
     def __init__(self, p: float, v: float, a: float, acceleration: float, jerk: float) -> None:
@@ -248,13 +314,17 @@ class _Stop:
     def at(self, t: float) -> Vec3:
         """Position, speed and acceleration t >= 0 s from its start.
 
-        Integrated backwards from the end: every sum is one of products, and zero at the end to the last bit.
+        Integrated backwards from the end: every sum is one of products, and zero at the end to the
+            last bit.
         """
         now, ramp, hold = self._since + t, self._ramp, self._hold
-        z = min(max(2.0 * ramp + hold - now, 0.0), ramp)  # s, left of the last ramp, of the hold, of the first ramp
+        # s, left of the last ramp, of the hold, of the first ramp
+        z = min(max(2.0 * ramp + hold - now, 0.0), ramp)
         y = min(max(ramp + hold - now, 0.0), hold)
         x = max(ramp - now, 0.0)
-        left = z * z * z / 6.0 + 0.5 * z * y * (z + y) + z * x * (0.5 * (z + x) + y) - x * x * x / 6.0
+        left = (
+            z * z * z / 6.0 + 0.5 * z * y * (z + y) + z * x * (0.5 * (z + x) + y) - x * x * x / 6.0
+        )
         speed = 0.5 * (z * z - x * x) + z * (y + x)
         return self.end - self._jerk * left, self._jerk * speed, self._jerk * (x - z)
 

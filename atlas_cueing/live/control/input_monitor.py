@@ -27,7 +27,9 @@ class InputMonitor:
         """How long the input has been good at `time`, s."""
         return 0.0 if self._good_since is None else time - self._good_since
 
-    def watch(self, time: float, state: State, moving: bool, intake: SourceReading) -> list[tuple[Event, str]]:
+    def watch(
+        self, time: float, state: State, moving: bool, intake: SourceReading
+    ) -> list[tuple[Event, str]]:
         """Events of this tick at `time` (s, real), each with its reason.
 
         moving: whether the platform follows the cue, or is not at rest yet.
@@ -43,7 +45,9 @@ class InputMonitor:
             return [(Event.BAD, trouble)]
         return []
 
-    def _while_holding(self, time: float, moving: bool, intake: SourceReading) -> list[tuple[Event, str]]:
+    def _while_holding(
+        self, time: float, moving: bool, intake: SourceReading
+    ) -> list[tuple[Event, str]]:
         if intake.age > LOST:
             return [(Event.LOST, f"no input for {intake.age:.2f} s")]
         if not self.held and not moving and self.good_for(time) >= GOOD_TO_RESUME:

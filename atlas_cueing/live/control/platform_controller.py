@@ -37,7 +37,8 @@ from .trajectories import (
     calm_time,
 )
 
-AT_REST = 1e-3  # rad/s, m/s, and a tenth of it per s^2: below this the platform stands (assumed; nobody feels it)
+# rad/s, m/s, and a tenth of it per s^2: below this the platform stands (assumed; nobody feels it)
+AT_REST = 1e-3
 AT_HOME = 1e-3  # rad and m from upright in the centre
 LONGEST_BLEND = 5.0  # s
 
@@ -54,10 +55,22 @@ class PlatformController:
     """Takes the platform from state to state, and gives every tick; it starts parked."""
 
     def __init__(
-        self, new_pipeline: Callable[[], Pipeline], sphere_from_wheels: tuple[Vec3, Vec3, Vec3], travel: Vec3, dt: float
+        self,
+        new_pipeline: Callable[[], Pipeline],
+        sphere_from_wheels: tuple[Vec3, Vec3, Vec3],
+        travel: Vec3,
+        dt: float,
     ):
-        """new_pipeline: makes a fresh chain. sphere_from_wheels: J. travel of the stage in m, tick dt in s."""
-        self._new_pipeline, self._J, self._travel, self._dt = new_pipeline, sphere_from_wheels, travel, dt
+        """new_pipeline: makes a fresh chain. sphere_from_wheels.
+
+        J. travel of the stage in m, tick dt in s.
+        """
+        self._new_pipeline, self._J, self._travel, self._dt = (
+            new_pipeline,
+            sphere_from_wheels,
+            travel,
+            dt,
+        )
         self.state = State.PARKED
         self._pipeline = new_pipeline()
         self._cueing: CueSource | None = None
@@ -107,7 +120,10 @@ class PlatformController:
         self._course = EngageTrajectory(self._motion, self._cue, self._dt, duration)
 
     def step(self, vehicle: VehicleState) -> Tick:
-        """The next tick, in any state but those of a fault. Raises PlanningError for a cue that is not finite."""
+        """The next tick, in any state but those of a fault.
+
+        Raises PlanningError for a cue that is not finite.
+        """
         if self.blending and self._cueing:
             self._cue = self._cueing.step(vehicle)
         cue = self._signed(self._course.step(_at(self._cue, vehicle.time)))
@@ -124,7 +140,13 @@ class PlatformController:
         dt = self._dt
         w, alpha = apply(self._J, command.wheel_speed), apply(self._J, command.wheel_acceleration)
         bend = scale(dt * dt / 12.0, subtract(alpha, before.alpha_WS_W))
-        turn = subtract(scale(0.5 * dt, (w[0] + before.w_WS_W[0], w[1] + before.w_WS_W[1], w[2] + before.w_WS_W[2])), bend)
+        turn = subtract(
+            scale(
+                0.5 * dt,
+                (w[0] + before.w_WS_W[0], w[1] + before.w_WS_W[1], w[2] + before.w_WS_W[2]),
+            ),
+            bend,
+        )
         q: Quat = normalise(integrate_base(before.q_WS, turn, before.w_WS_W, w, dt))
         p, v, a = command.p_WS_W, command.v_WS_W, command.a_WS_W
         self._motion = Motion(vehicle.time, q, w, alpha, p, v, a, (1.0, 1.0))
@@ -133,13 +155,21 @@ class PlatformController:
 
     def arrived(self) -> bool:
         """Whether what the state is about is done; drives home as soon as it stands."""
-        if self.state is State.PARKING and isinstance(self._course, StopTrajectory) and self._arrived():
+        if (
+            self.state is State.PARKING
+            and isinstance(self._course, StopTrajectory)
+            and self._arrived()
+        ):
             self._course = ParkTrajectory(self._motion, self._dt)
         match self.state:
             case State.ENGAGING:
                 return isinstance(self._course, EngageTrajectory) and self._course.arrived
             case State.PARKING:
-                return isinstance(self._course, ParkTrajectory) and self._arrived() and _is_home(self._motion)
+                return (
+                    isinstance(self._course, ParkTrajectory)
+                    and self._arrived()
+                    and _is_home(self._motion)
+                )
             case State.FAULT_STOPPING:
                 return _is_still(self._motion)
         return False
@@ -171,7 +201,9 @@ class PlatformController:
         m = self._motion
         self._cueing, self._pipeline = None, self._new_pipeline()
         self._unused = self._pipeline.cueing
-        self._motion = self._pipeline.smoothing.step(Cue(m.time, m.q_WS, ZERO, m.p_WS_W, ZERO, ZERO))
+        self._motion = self._pipeline.smoothing.step(
+            Cue(m.time, m.q_WS, ZERO, m.p_WS_W, ZERO, ZERO)
+        )
 
 
 def command_of(tick: Tick) -> Command:
@@ -186,11 +218,18 @@ def standing(motion: Motion) -> Command:
 
 
 def _at(cue: Cue, time: float) -> Cue:
-    return cue if cue.time == time else Cue(time, cue.q_WS, cue.w_WS_W, cue.p_WS_W, cue.v_WS_W, cue.a_WS_W)
+    return (
+        cue
+        if cue.time == time
+        else Cue(time, cue.q_WS, cue.w_WS_W, cue.p_WS_W, cue.v_WS_W, cue.a_WS_W)
+    )
 
 
 def _timed(motion: Motion, time: float) -> Motion:
-    """The motion with the tick's own time; after a restart smoothing's differs from it by rounding."""
+    """The motion with the tick's own time.
+
+    After a restart smoothing's differs from it by rounding.
+    """
     m = motion
     if m.time == time:
         return m

@@ -29,12 +29,14 @@ class State(Enum):
 class Event(Enum):
     """What can happen in a tick.
 
-    ENGAGE, HOLD, PARK, RESET: asked by the operator; PARK by a signal or the end of the flight, too.
+    ENGAGE, HOLD, PARK, RESET: asked by the operator; PARK by a signal or the end of the flight,
+        too.
     READY: the input has been good for long enough and the platform stands.
     BAD: no input for a while, too many bad samples, or a jump of the vehicle.
     LOST: no input for so long that nobody waits any more.
     ARRIVED: what the state was about is done.
-    FAULT: the loop failed its deadlines, the tick raised, the guard refused a command, or somebody asked to stop now.
+    FAULT: the loop failed its deadlines, the tick raised, the guard refused a command, or somebody
+        asked to stop now.
     """
 
     ENGAGE = auto()
@@ -97,9 +99,13 @@ def after(state: State, event: Event) -> State:
 def allowed_buttons() -> Mapping[str, Collection[str]]:
     """Which of the operator's buttons do something, by the name of the state.
 
-    A hold that the input has caused can be made the operator's own, and the operator's be ended by engaging.
+    A hold that the input has caused can be made the operator's own, and the operator's be ended by
+    engaging.
     """
     asked = {"engage": Event.ENGAGE, "hold": Event.HOLD, "park": Event.PARK, "reset": Event.RESET}
-    buttons = {state.value: {name for name, event in asked.items() if event in TRANSITIONS[state]} for state in State}
+    buttons = {
+        state.value: {name for name, event in asked.items() if event in TRANSITIONS[state]}
+        for state in State
+    }
     buttons[State.HOLDING.value] |= {"engage", "hold"}
     return buttons

@@ -1,7 +1,10 @@
-"""Where the platform goes when it does not simply follow the cue: to rest, home, and from rest to the cue.
+"""Where the platform goes when it does not simply follow the cue.
 
-Each course is smooth by itself, from the motion it is begun with, and gives a Cue a tick; smoothing, wheels and guard come
-after it as after any cue, so a course need not know the limits exactly. All in W.
+To rest, home, and from rest to the cue.
+
+Each course is smooth by itself, from the motion it is begun with, and gives a Cue a tick;
+smoothing, wheels and guard come after it as after any cue, so a course need not know the limits
+exactly. All in W.
 """
 
 # mypyc: runs every tick
@@ -34,7 +37,8 @@ CALM_RATE = radians(60.0)  # rad/s at most on the way home, or to the cue (assum
 CALM_SPEED = 0.5  # m/s, likewise
 CALM_ACCELERATION = 0.8  # m/s^2, likewise
 SHORTEST_PARKING = 1.0  # s
-_OTHER_WAY = 1.5 * pi  # rad; a turn that has grown beyond it on the way to the cue is made the other way round (assumed)
+# rad; a turn that has grown beyond it on the way to the cue is made the other way round (assumed)
+_OTHER_WAY = 1.5 * pi
 _PEAK_RATE, _PEAK_BEND = 1.875, 10.0 / sqrt(3.0)  # of `smoothstep`, per duration and per duration^2
 
 
@@ -122,7 +126,14 @@ class ParkTrajectory:
         rate, bend = ds / self.duration, dds / self.duration**2
         q = normalise(multiply(exp(scale(s, self._turn)), self._q))
         back = scale(-1.0, self._p)
-        return Cue(cue.time, q, scale(rate, self._turn), add(self._p, scale(s, back)), scale(rate, back), scale(bend, back))
+        return Cue(
+            cue.time,
+            q,
+            scale(rate, self._turn),
+            add(self._p, scale(s, back)),
+            scale(rate, back),
+            scale(bend, back),
+        )
 
     @property
     def arrived(self) -> bool:
@@ -208,7 +219,10 @@ def smoothstep(t: float) -> Vec3:
 
 
 def _fading(t: float, duration: float) -> Vec3:
-    """Integral, value and derivative of 1 - smoothstep(t / duration); the integral goes from 0 to duration / 2."""
+    """Integral, value and derivative of 1 - smoothstep(t / duration).
+
+    The integral goes from 0 to duration / 2.
+    """
     u = min(t / duration, 1.0)
     s, ds, _ = smoothstep(u)
     return duration * u * (1.0 - u * u * u * (2.5 - u * (3.0 - u))), 1.0 - s, -ds / duration

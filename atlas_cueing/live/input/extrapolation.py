@@ -19,25 +19,32 @@ from ...rotation import (
 from ...signals import VehicleState
 from .interpolation import turned
 
-FADING = 0.025  # s in which an extrapolated acceleration fades, once the next sample is overdue (assumed)
+# s in which an extrapolated acceleration fades, once the next sample is overdue (assumed)
+FADING = 0.025
 STEEPEST_RATE = 100.0  # rad/s^2; a small quadrotor's best (assumed)
-STEEPEST_FORCE = 300.0  # m/s^3; an elevator kicked over in 0.1 s makes 200, what is steeper is an impact (assumed)
+# m/s^3; an elevator kicked over in 0.1 s makes 200, what is steeper is an impact (assumed)
+STEEPEST_FORCE = 300.0
 
 
 class Extrapolation:
     """States after the samples taken so far.
 
-    From a sample on, body rates and force go on as they did from the one before: with a constant slope for as long as the last
-    interval was, and with one that fades out exponentially after it. So both tend to a constant however late the next sample
-    is, and are bounded for ever. Slopes steeper than those of a manoeuvre are cut: an impact does not go on.
+    From a sample on, body rates and force go on as they did from the one before: with a constant
+    slope for as long as the last interval was, and with one that fades out exponentially after it.
+    So both tend to a constant however late the next sample is, and are bounded for ever. Slopes
+    steeper than those of a manoeuvre are cut: an impact does not go on.
 
-    A new sample corrects the course. What was wrong at the last state given is added to the new course, shrinking linearly to
-    nothing over one interval: attitude, rates and force go on without a step. The correction of the attitude is not put into
-    the rates, or every error of a sample's time would come out as an angular acceleration.
+    A new sample corrects the course. What was wrong at the last state given is added to the new
+    course, shrinking linearly to nothing over one interval: attitude, rates and force go on without
+    a step. The correction of the attitude is not put into the rates, or every error of a sample's
+    time would come out as an angular acceleration.
     """
 
     def __init__(self, sample: VehicleState, interval: float) -> None:
-        """Start at a sample with constant rates and force; `interval` (s) is how soon the next one is expected."""
+        """Start at a sample with constant rates and force.
+
+        `interval` (s) is how soon the next one is expected.
+        """
         self._sample, self._interval = sample, interval
         self._slope_w, self._slope_f = ZERO, ZERO
         self._given = sample
@@ -62,7 +69,10 @@ class Extrapolation:
         left = 1.0 - (time - self._corrected) / self._interval
         if left > 0.0:
             q_NB = multiply(q_NB, exp(scale(left, self._missing_q)))
-            w_B, f_B = add(w_B, scale(left, self._missing_w)), add(f_B, scale(left, self._missing_f))
+            w_B, f_B = (
+                add(w_B, scale(left, self._missing_w)),
+                add(f_B, scale(left, self._missing_f)),
+            )
         self._given = VehicleState(time, continuous(q_NB, self._given.q_NB), w_B, f_B)
         return self._given
 
@@ -76,11 +86,16 @@ class Extrapolation:
             return q_NB, add(sample.w_NB_B, gain), add(sample.f_B, scale(dt, self._slope_f))
         due = add(sample.w_NB_B, scale(self._interval, self._slope_w))
         q_NB = turned(sample.q_NB, sample.w_NB_B, subtract(due, sample.w_NB_B), self._interval)
-        # integral of the fading slope and of what it has become: tau (1 - e^(-t / tau)), and tau t less tau times that
+        # integral of the fading slope and of what it has become: tau (1 - e^(-t / tau)), and tau t
+        # less tau times that
         reach = FADING * (1.0 - exponential(-late / FADING))
         mean = FADING * (late - reach) / late
         q_NB = multiply(q_NB, exp(scale(late, add(due, scale(mean, self._slope_w)))))
-        return q_NB, add(due, scale(reach, self._slope_w)), add(sample.f_B, scale(self._interval + reach, self._slope_f))
+        return (
+            q_NB,
+            add(due, scale(reach, self._slope_w)),
+            add(sample.f_B, scale(self._interval + reach, self._slope_f)),
+        )
 
 
 def _slope(before: Vec3, now: Vec3, interval: float, steepest: float) -> Vec3:

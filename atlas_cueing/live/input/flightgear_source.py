@@ -14,27 +14,33 @@ from .source import SourceReading
 from .udp import Address, Datagram, Receiver
 
 MAX_PACKETS = 8  # taken in one read: 67 ms at 120 Hz, and some 0.2 ms of work (assumed)
-LONGEST_GAP = 0.1  # s without a packet, after which the next one says nothing about the time between (assumed)
+# s without a packet, after which the next one says nothing about the time between (assumed)
+LONGEST_GAP = 0.1
 LONGEST_GAP_PERIODS = 3.0  # for senders so slow that it is longer (assumed)
 
 
 class FlightgearSource:
     """Reads the newest packets, checks them all, and goes on from the last good one.
 
-    A packet bears no time: it is told from arrivals, freed of their jitter. It bears no number either, so order is judged by
-    what it says. A packet that does not follow from the one before is dropped; if the next follows from it, the vehicle has
-    jumped, and if the next follows from the one before, it was late, repeated or forged. The copy of a packet right behind it
-    is dropped; one in due time is a simulator that stands still, and taken with rates of zero. After a gap the vehicle is
-    where the packet says, and that is a jump too.
+    A packet bears no time: it is told from arrivals, freed of their jitter. It bears no number
+    either, so order is judged by what it says. A packet that does not follow from the one before is
+    dropped; if the next follows from it, the vehicle has jumped, and if the next follows from the
+    one before, it was late, repeated or forged. The copy of a packet right behind it is dropped;
+    one in due time is a simulator that stands still, and taken with rates of zero. After a gap the
+    vehicle is where the packet says, and that is a jump too.
     """
 
     def __init__(self, receiver: Receiver, rate_hz: float, bounds: Bounds | None = None) -> None:
-        """Args: receiver: where datagrams come from; rate_hz: nominal packets per second; bounds: of a believable state."""
+        """Args: receiver: where datagrams come from; rate_hz: nominal packets per second.
+
+        Bounds: of a believable state.
+        """
         self._receiver = receiver
         self._bounds = Bounds() if bounds is None else bounds
         self._arrivals = ArrivalTimes(rate_hz)
         self._course: Extrapolation | None = None
-        self._last: VehicleState | None = None  # of the newest good packet, with its arrival as its time
+        # of the newest good packet, with its arrival as its time
+        self._last: VehicleState | None = None
         self._content = b""  # of the same packet
         self._sender: Address | None = None  # of the same packet
         self._suspect: VehicleState | None = None  # the packet before, when it did not follow
@@ -43,7 +49,8 @@ class FlightgearSource:
         self._jumped = False
         self._reason = ""
 
-    def read(self, time: float, advance: bool) -> SourceReading:  # noqa: ARG002 - the simulator owns its time
+    # The simulator owns its time
+    def read(self, time: float, advance: bool) -> SourceReading:  # noqa: ARG002
         """See `Source`. Takes at most MAX_PACKETS packets."""
         self._dropped, self._jumped, self._reason = 0, False, ""
         for _ in range(MAX_PACKETS):
@@ -53,10 +60,15 @@ class FlightgearSource:
             self._take(datagram, time)
         vehicle = self._course.at(time) if self._course else None
         age = time - self._last.time if self._last else inf
-        return SourceReading(vehicle, age, self._dropped, self._bad_in_a_row, self._jumped, False, self._reason)
+        return SourceReading(
+            vehicle, age, self._dropped, self._bad_in_a_row, self._jumped, False, self._reason
+        )
 
     def pin(self) -> None:
-        """See `Source`. Without a good packet yet there is nobody to listen to, and nothing is pinned."""
+        """See `Source`.
+
+        Without a good packet yet there is nobody to listen to, and nothing is pinned.
+        """
         if self._sender is not None:
             self._pinned = self._sender
             self._receiver.pin(self._sender)
@@ -68,7 +80,10 @@ class FlightgearSource:
     def _take(self, datagram: Datagram, time: float) -> None:
         if self._pinned not in (None, datagram.sender):
             # not counted in a row: a stranger must not be able to stop the vehicle
-            self._dropped, self._reason = self._dropped + 1, f"packet from {datagram.sender}, pinned to {self._pinned}"
+            self._dropped, self._reason = (
+                self._dropped + 1,
+                f"packet from {datagram.sender}, pinned to {self._pinned}",
+            )
             return
         before = self._last.time if self._last else -inf
         arrival = min(max(time - datagram.ago, before), time)
@@ -87,7 +102,10 @@ class FlightgearSource:
         return replace(state, w_NB_B=ZERO)
 
     def _add(self, state: VehicleState, datagram: Datagram) -> None:
-        """Go on from a packet that follows, or begin anew after a jump. Raises PacketError for one that does neither."""
+        """Go on from a packet that follows, or begin anew after a jump.
+
+        Raises PacketError for one that does neither.
+        """
         jump = self._jump_to(state)
         if self._last is not None:
             state = replace(state, q_NB=continuous(state.q_NB, self._last.q_NB))
@@ -101,7 +119,10 @@ class FlightgearSource:
         self._content, self._sender = datagram.content, datagram.sender
 
     def _jump_to(self, state: VehicleState) -> str:
-        """What jumped, if the vehicle did; empty when the packet follows. Raises PacketError when that is not known yet."""
+        """What jumped, if the vehicle did; empty when the packet follows.
+
+        Raises PacketError when that is not known yet.
+        """
         if self._last is None:
             return ""
         gap = state.time - self._last.time

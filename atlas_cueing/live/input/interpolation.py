@@ -20,11 +20,13 @@ from ...signals import VehicleState
 class Interpolation:
     """States between `before` and `now`, which must be later.
 
-    Rates and force are linear in time. The attitude is the integral of these rates (fourth-order Magnus expansion), and what
-    is then missing at `now` is spread evenly: q and w meet both samples, and q' departs from w by a constant.
+    Rates and force are linear in time. The attitude is the integral of these rates (fourth-order
+    Magnus expansion), and what is then missing at `now` is spread evenly: q and w meet both
+    samples, and q' departs from w by a constant.
 
-    A cubic through attitudes and rates would make q' = w, but it takes the forward-Euler attitude of JSBSim at its word: for a
-    steady angular acceleration a its own swings between -2 a and 4 a in every interval.
+    A cubic through attitudes and rates would make q' = w, but it takes the forward-Euler attitude
+    of JSBSim at its word: for a steady angular acceleration a its own swings between -2 a and 4 a
+    in every interval.
     """
 
     def __init__(self, before: VehicleState, now: VehicleState) -> None:
@@ -35,12 +37,20 @@ class Interpolation:
         self._missing = log(multiply(conjugate(explained), now.q_NB))
 
     def at(self, time: float, called: float) -> VehicleState:
-        """State at `time` (s), from one sample to the other, with `called` as its time; q goes on from the sign of `before`."""
+        """State at `time` (s), from one sample to the other, with `called` as its time.
+
+        Q goes on from the sign of `before`.
+        """
         before = self._before
         s = (time - before.time) / self._h
         gain = scale(s, self._rate_gain)
-        q_NB = multiply(turned(before.q_NB, before.w_NB_B, gain, time - before.time), exp(scale(s, self._missing)))
-        return VehicleState(called, q_NB, add(before.w_NB_B, gain), add(before.f_B, scale(s, self._force_gain)))
+        q_NB = multiply(
+            turned(before.q_NB, before.w_NB_B, gain, time - before.time),
+            exp(scale(s, self._missing)),
+        )
+        return VehicleState(
+            called, q_NB, add(before.w_NB_B, gain), add(before.f_B, scale(s, self._force_gain))
+        )
 
 
 def turned(q_NB: Quat, w_B: Vec3, gain_B: Vec3, dt: float) -> Quat:

@@ -13,10 +13,12 @@ class SourceReading:
     """What a source knows at the asked time.
 
     vehicle: the vehicle at the asked time, which is its `time`; None until a first good sample.
-    age: s since the newest good sample; 0 for a source that cannot be late, infinite before the first sample.
+    age: s since the newest good sample; 0 for a source that cannot be late, infinite before the
+        first sample.
     dropped: samples refused since the last read.
     bad_in_a_row: samples refused one after the other up to now.
-    jumped: a sample came since the last read that does not follow from the one before, in attitude or in force.
+    jumped: a sample came since the last read that does not follow from the one before, in attitude
+        or in force.
     over: the flight is over, nothing will come any more.
     reason: why the last sample was dropped, or what jumped; empty otherwise.
     """

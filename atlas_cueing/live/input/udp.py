@@ -11,7 +11,8 @@ from ...errors import InputError
 Address: TypeAlias = tuple[str, int]
 
 LARGEST = 2048  # bytes read of a datagram; a longer one is cut, and no packet of ours
-BUFFER = 64 * 1024  # bytes the kernel keeps for us: some 50 packets, so that a flood does not bring old ones (assumed)
+# bytes the kernel keeps for us: some 50 packets, so that a flood does not bring old ones (assumed)
+BUFFER = 64 * 1024
 
 _SO_TIMESTAMPNS = 35  # Linux, asm-generic/socket.h; Python has no name for it
 _TIMESPEC = Struct("@ll")
@@ -40,9 +41,12 @@ class Receiver(Protocol):
 
 
 class UdpReceiver:
-    """A bound UDP socket (implements Receiver). The kernel notes when a datagram arrives, whenever it is read.
+    """A bound UDP socket (implements Receiver).
 
-    After `pin` the kernel itself throws away what others send, so that they can neither be heard nor fill the buffer.
+    The kernel notes when a datagram arrives, whenever it is read.
+
+    After `pin` the kernel itself throws away what others send, so that they can neither be heard
+    nor fill the buffer.
     """
 
     def __init__(self, host: str, port: int) -> None:
@@ -56,7 +60,8 @@ class UdpReceiver:
         except OSError as error:
             self._socket.close()
             raise InputError(
-                f"UDP {host}:{port}: cannot listen there: {error.strerror}; another program may have it"
+                f"UDP {host}:{port}: cannot listen there: {error.strerror}; another program may"
+                " have it"
             ) from error
 
     @property
@@ -84,7 +89,10 @@ class UdpReceiver:
 
 
 def _ago(ancillary: list[tuple[int, int, bytes]]) -> float:
-    """Seconds since the kernel's time stamp; 0 without one, and when the system's clock was put back since."""
+    """Seconds since the kernel's time stamp.
+
+    0 without one, and when the system's clock was put back since.
+    """
     for level, kind, stamp in ancillary:
         if level == socket.SOL_SOCKET and kind == _SO_TIMESTAMPNS and len(stamp) == _TIMESPEC.size:
             seconds, nanoseconds = _TIMESPEC.unpack(stamp)

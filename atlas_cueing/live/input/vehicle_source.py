@@ -10,7 +10,8 @@ from .discontinuity import discontinuity
 from .interpolation import Interpolation
 from .source import SourceReading
 
-MAX_STEPS = 50  # of the model in one read: 50 ms at 1000 Hz, about a millisecond of JSBSim (assumed)
+# of the model in one read: 50 ms at 1000 Hz, about a millisecond of JSBSim (assumed)
+MAX_STEPS = 50
 
 
 class VehicleSource:
@@ -36,7 +37,10 @@ class VehicleSource:
         self._jump = ""
 
     def read(self, time: float, advance: bool) -> SourceReading:
-        """See `Source`. Raises what the vehicle raises, when it is stepped past its last good state."""
+        """See `Source`.
+
+        Raises what the vehicle raises, when it is stepped past its last good state.
+        """
         self._jump = ""
         if advance and not self._over:
             self._elapsed += 0.0 if self._now is None else time - self._now

@@ -33,7 +33,8 @@ if TYPE_CHECKING:
 RATE_HZ = 60.0  # the newest tick so often: what a screen draws
 REPEAT_S = 1.0  # s after which the state is said again, for clients that came later
 BACKLOG = 256  # messages kept for a client that does not read: half a second of all topics
-ORIGINS = ("https://app.foxglove.dev", "file://")  # Foxglove in a browser; its desktop program (assumed)
+# Foxglove in a browser; its desktop program (assumed)
+ORIGINS = ("https://app.foxglove.dev", "file://")
 _NAME = "atlas_cueing"
 
 
@@ -43,10 +44,12 @@ class FoxgloveProcess:
     def __init__(self, ring: Ring, port: int, head_S: Vec3, started_ns: int) -> None:
         """Fork.
 
-        ring: written by this process only. port: of 127.0.0.1; 0 takes a free one. head_S: the rider's head, m, frame S, for
+        ring: written by this process only. port: of 127.0.0.1; 0 takes a free one. head_S: the
+            rider's head, m, frame S, for
         /felt. started_ns: as McapRecorder has it.
 
-        Raises MissingExtraError when foxglove-sdk is not installed, InputError when the port cannot be had.
+        Raises MissingExtraError when foxglove-sdk is not installed, InputError when the port cannot
+        be had.
         """
         if find_spec("foxglove") is None:
             raise MissingExtraError("--foxglove", "foxglove-sdk", "foxglove")
@@ -71,7 +74,10 @@ class FoxgloveProcess:
         return self._process.alive
 
     def close(self, timeout: float = 2.0) -> bool:
-        """End it, by force after `timeout` s; whether it had served until now. Harmless when called again."""
+        """End it, by force after `timeout` s; whether it had served until now.
+
+        Harmless when called again.
+        """
         return self._process.finish(timeout).status == 0
 
 
@@ -126,7 +132,12 @@ async def _serve(feed: Feed, listener: socket.socket, left: Left) -> bytes:
     context = foxglove.Context()
     host = str(IPv4Address("127.0.0.0") + 1 + secrets.randbelow(2**24 - 2))
     server = foxglove.start_server(
-        name=_NAME, host=host, port=0, capabilities=[], context=context, message_backlog_size=BACKLOG
+        name=_NAME,
+        host=host,
+        port=0,
+        capabilities=[],
+        context=context,
+        message_backlog_size=BACKLOG,
     )
     channels = {topic: _channel(topic, context) for topic in feed.topics}
     gate = await OriginGate((host, server.port), ORIGINS).open(listener)
@@ -148,5 +159,8 @@ def _channel(topic: str, context: "Context") -> "Channel":
 
     name, schema = schema_of(topic)
     return Channel(
-        topic, schema=Schema(name=name, encoding="protobuf", data=schema), message_encoding="protobuf", context=context
+        topic,
+        schema=Schema(name=name, encoding="protobuf", data=schema),
+        message_encoding="protobuf",
+        context=context,
     )

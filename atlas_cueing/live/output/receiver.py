@@ -1,7 +1,10 @@
-"""What a drive controller does with set points: a reference, with the watchdog that stops the platform when they cease.
+"""What a drive controller does with set points.
 
-Time is the sender's CLOCK_MONOTONIC in s. A receiver on another machine adds the difference of the clocks, which it has to
-keep itself (as with PTP); a difference of more than AHEAD_S is refused packet by packet.
+A reference, with the watchdog that stops the platform when they cease.
+
+Time is the sender's CLOCK_MONOTONIC in s. A receiver on another machine adds the difference of the
+clocks, which it has to keep itself (as with PTP); a difference of more than AHEAD_S is refused
+packet by packet.
 """
 
 from collections import deque
@@ -21,18 +24,29 @@ _KEPT = 256  # set points: more than AHEAD_S of them at 1 kHz
 class SetPointReceiver:
     """Follows the set points of one sender, and stops by itself when they cease.
 
-    Between two set points it interpolates (cubic in position and in speed, linear in acceleration). After the newest one it
-    keeps the speeds; a watchdog later it trips: every wheel and stage axis slows down at its largest acceleration to zero, and
-    nothing is followed any more until `reset`. The ramp has corners, so the jerk at its ends is the drive's to limit; and until
-    the watchdog trips the stage goes on by up to speed * WATCHDOG_S, which the drives' own end stops have to allow for.
+    Between two set points it interpolates (cubic in position and in speed, linear in acceleration).
+    After the newest one it keeps the speeds; a watchdog later it trips: every wheel and stage axis
+    slows down at its largest acceleration to zero, and nothing is followed any more until `reset`.
+    The ramp has corners, so the jerk at its ends is the drive's to limit; and until the watchdog
+    trips the stage goes on by up to speed * WATCHDOG_S, which the drives' own end stops have to
+    allow for.
 
     good, refused: packets taken and not taken, since the start.
     """
 
-    def __init__(self, wheel_acceleration: Vec3, stage_acceleration: Vec3, key: bytes = b"") -> None:
-        """Accelerations of the stop ramp, rad/s^2 by wheel and m/s^2 by axis of W. Raises InputError for a bad key."""
+    def __init__(
+        self, wheel_acceleration: Vec3, stage_acceleration: Vec3, key: bytes = b""
+    ) -> None:
+        """Accelerations of the stop ramp, rad/s^2 by wheel and m/s^2 by axis of W.
+
+        Raises InputError for a bad key.
+        """
         check_key(key)
-        self._wheel_acceleration, self._stage_acceleration, self._key = wheel_acceleration, stage_acceleration, key
+        self._wheel_acceleration, self._stage_acceleration, self._key = (
+            wheel_acceleration,
+            stage_acceleration,
+            key,
+        )
         self.good = self.refused = 0
         self.reset()
 
@@ -72,7 +86,10 @@ class SetPointReceiver:
         return ""
 
     def at(self, now: float) -> Command | None:
-        """What the drives shall do at `now`, which does not decrease; None before the first good packet: stand still."""
+        """What the drives shall do at `now`, which does not decrease.
+
+        None before the first good packet: stand still.
+        """
         self._watch(now)
         if self._stop is not None:
             return self._ramp(self._stop, now - self._stop.time)
@@ -95,7 +112,9 @@ class SetPointReceiver:
             return
         newest = self._points[-1].valid_from
         if now - self._heard > WATCHDOG_S:
-            self._reason = f"no good set point for {now - self._heard:.3f} s, allowed: {WATCHDOG_S} s"
+            self._reason = (
+                f"no good set point for {now - self._heard:.3f} s, allowed: {WATCHDOG_S} s"
+            )
         elif now - newest > WATCHDOG_S:
             self._reason = f"set points late by {now - newest:.3f} s, allowed: {WATCHDOG_S} s"
         if self._reason:
@@ -107,25 +126,46 @@ class SetPointReceiver:
         if self._reason:
             return f"stopped: {self._reason}; reset first"
         if point.valid_from > now + AHEAD_S:
-            return f"packet {point.sequence} is valid from {point.valid_from - now:.3f} s ahead, allowed: {AHEAD_S} s"
+            return (
+                f"packet {point.sequence} is valid from {point.valid_from - now:.3f} s ahead,"
+                f" allowed: {AHEAD_S} s"
+            )
         if point.valid_from < now - WATCHDOG_S:
-            return f"packet {point.sequence} was valid from {now - point.valid_from:.3f} s ago, allowed: {WATCHDOG_S} s"
+            return (
+                f"packet {point.sequence} was valid from {now - point.valid_from:.3f} s ago,"
+                f" allowed: {WATCHDOG_S} s"
+            )
         if last is None:
             return ""
         if sender != self._sender or point.session != last.session:
-            return f"packet {point.sequence} is from another sender, {sender[0]}:{sender[1]}, or session than the first one"
+            return (
+                f"packet {point.sequence} is from another sender, {sender[0]}:{sender[1]}, or"
+                " session than the first one"
+            )
         if point.sequence <= last.sequence:
-            return f"packet {point.sequence} comes after {last.sequence}: out of order or sent again"
+            return (
+                f"packet {point.sequence} comes after {last.sequence}: out of order or sent again"
+            )
         if point.valid_from <= last.valid_from:
             return f"packet {point.sequence} is not valid from later than the one before"
         return ""
 
     def _ramp(self, start: Command, t: float) -> Command:
         """The stop, t s into it."""
-        wheels = [_brake(0.0, v, a, t) for v, a in zip(start.wheel_speed, self._wheel_acceleration, strict=True)]
-        rails = [_brake(p, v, a, t) for p, v, a in zip(start.p_WS_W, start.v_WS_W, self._stage_acceleration, strict=True)]
-        (_, w1, b1), (_, w2, b2), (_, w3, b3), (px, vx, ax), (py, vy, ay), (pz, vz, az) = wheels + rails
-        return Command(start.time + t, (w1, w2, w3), (b1, b2, b3), (px, py, pz), (vx, vy, vz), (ax, ay, az))
+        wheels = [
+            _brake(0.0, v, a, t)
+            for v, a in zip(start.wheel_speed, self._wheel_acceleration, strict=True)
+        ]
+        rails = [
+            _brake(p, v, a, t)
+            for p, v, a in zip(start.p_WS_W, start.v_WS_W, self._stage_acceleration, strict=True)
+        ]
+        (_, w1, b1), (_, w2, b2), (_, w3, b3), (px, vx, ax), (py, vy, ay), (pz, vz, az) = (
+            wheels + rails
+        )
+        return Command(
+            start.time + t, (w1, w2, w3), (b1, b2, b3), (px, py, pz), (vx, vy, vz), (ax, ay, az)
+        )
 
 
 def _brake(p: float, v: float, most: float, t: float) -> Vec3:
@@ -133,7 +173,11 @@ def _brake(p: float, v: float, most: float, t: float) -> Vec3:
     end = abs(v) / most
     a = -copysign(most, v) if t < end else 0.0
     t = min(t, end)
-    return p + v * t - 0.5 * copysign(most, v) * t * t, v - copysign(most, v) * t if t < end else 0.0, a
+    return (
+        p + v * t - 0.5 * copysign(most, v) * t * t,
+        v - copysign(most, v) * t if t < end else 0.0,
+        a,
+    )
 
 
 def _timed(point: SetPoint, time: float) -> Command:
@@ -146,7 +190,9 @@ def _coast(point: SetPoint, now: float) -> Command:
     c, t = point.command, now - point.valid_from
     (px, py, pz), (vx, vy, vz) = c.p_WS_W, c.v_WS_W
     still = (0.0, 0.0, 0.0)
-    return Command(now, c.wheel_speed, still, (px + t * vx, py + t * vy, pz + t * vz), c.v_WS_W, still)
+    return Command(
+        now, c.wheel_speed, still, (px + t * vx, py + t * vy, pz + t * vz), c.v_WS_W, still
+    )
 
 
 def _between(one: SetPoint, two: SetPoint, now: float) -> Command:

@@ -10,14 +10,17 @@ from ...telemetry.child_process import ChildProcess, Left, ProcessExit
 from .ring_recorder import Recorded, RingRecorder
 
 POLL_S = 0.01  # s between two looks at the ring
-FINISH_S = 60.0  # s that the last chunks and their way to a slow, busy disk may take (assumed); nobody rides any more
+# s that the last chunks and their way to a slow, busy disk may take (assumed); nobody rides any
+# more
+FINISH_S = 60.0
 
 
 class RecorderProcess:
     """Writes the log of whatever goes into a ring from now on.
 
-    The log is finished when END is in the ring. If the loop's process ends without, however it ends, the log is finished with
-    the result `loop_killed`. If this process is killed, the log's .part has all but the last 0.1 s, for `recover`.
+    The log is finished when END is in the ring. If the loop's process ends without, however it
+    ends, the log is finished with the result `loop_killed`. If this process is killed, the log's
+    .part has all but the last 0.1 s, for `recover`.
     """
 
     def __init__(self, ring: Ring, recorder: McapRecorder, *, announce: bool = False) -> None:
@@ -38,24 +41,32 @@ class RecorderProcess:
 
     @property
     def alive(self) -> bool:
-        """Whether it records; False in mid-run means that it was killed or failed. Takes a microsecond or so."""
+        """Whether it records; False in mid-run means that it was killed or failed.
+
+        Takes a microsecond or so.
+        """
         return self._process.alive
 
     def finish(self, timeout: float = FINISH_S) -> Recorded:
-        """Wait for the finished log, at most `timeout` s; then the process is killed and the log stays a .part.
+        """Wait for the finished log, at most `timeout` s.
+
+        Then the process is killed and the log stays a .part.
 
         END should be in the ring before. Harmless when called again.
         """
         ended = self._process.finish(timeout)
         if ended.answer:
             return Recorded(**json.loads(ended.answer))
-        return Recorded("recorder_died", f"{_how(ended)}; the log is a .part: atlas-cueing recover", 0, 0)
+        return Recorded(
+            "recorder_died", f"{_how(ended)}; the log is a .part: atlas-cueing recover", 0, 0
+        )
 
 
 def _follow(recorder: RingRecorder, left: Left) -> bytes:
     """Record until the end, or until nothing more can come."""
     while True:
-        last = left()  # asked before the ring is read: what the loop wrote until it went is then in there
+        # asked before the ring is read: what the loop wrote until it went is then in there
+        last = left()
         recorded = recorder.step(monotonic())
         if recorded is None and last:
             recorded = recorder.orphaned()

@@ -13,8 +13,11 @@ from ...recording.log import Status
 from ...telemetry import Ring, RingReader
 from ...telemetry.messages import END, STATUS, TICK, numbers, status
 
-FLUSH_S = 0.06  # ticks are on their way to the disk after at most this and one poll: the loss by a kill is to be below 0.1 s
-CHUNK_TICKS = 256  # at most, when there is much to catch up with; below the recorder's own, so that the count is ours
+# ticks are on their way to the disk after at most this and one poll: the loss by a kill is to be
+# below 0.1 s
+FLUSH_S = 0.06
+# at most, when there is much to catch up with; below the recorder's own, so that the count is ours
+CHUNK_TICKS = 256
 _STDERR = 2
 
 
@@ -22,7 +25,8 @@ _STDERR = 2
 class Recorded:
     """What became of a recording.
 
-    result, reason: as in the log's metadata; `recording_failed` with the first error when the log could not be written.
+    result, reason: as in the log's metadata; `recording_failed` with the first error when the log
+        could not be written.
     ticks: in the log, at least. lost: messages that the ring overwrote before they were read.
     """
 
@@ -35,29 +39,42 @@ class Recorded:
 class RingRecorder:
     """Takes over what is new in a ring, and goes on taking when the log cannot be written any more.
 
-    A gap (the ring went round faster than the log was written) is a status `recording_gap` at the last tick before it.
+    A gap (the ring went round faster than the log was written) is a status `recording_gap` at the
+    last tick before it.
     """
 
-    def __init__(self, ring: Ring, recorder: McapRecorder, *, announce: bool = False, say: Callable[[str], None] | None = None):
+    def __init__(
+        self,
+        ring: Ring,
+        recorder: McapRecorder,
+        *,
+        announce: bool = False,
+        say: Callable[[str], None] | None = None,
+    ):
         """Read `ring` from here on into `recorder`.
 
-        announce: tell every change of state. say: takes lines for the user, without their end; stderr without waiting by
-        default.
+        announce: tell every change of state. say: takes lines for the user, without their end;
+        stderr without waiting by default.
         """
         self._reader = RingReader(ring)
         self._recorder = recorder
         self._announce = announce
         self._say = say or tell
         self._flushed = -1.0
-        self._taken = self._kept = self._lost = 0  # ticks read, ticks in the log, messages known to be lost
+        # ticks read, ticks in the log, messages known to be lost
+        self._taken = self._kept = self._lost = 0
         self._latest = 0.0  # s; time of the last tick read
         self._failure = ""
         self._end: Status | None = None
 
     def step(self, now: float) -> Recorded | None:
-        """Take over what is new at `now` (s, monotonic); the outcome once the loop has said its END."""
+        """Take over what is new at `now` (s, monotonic).
+
+        The outcome once the loop has said its END.
+        """
         for kind, data in self._reader.messages():
-            self._tell_gap()  # what is overwritten is so by something newer, before which it is told
+            # what is overwritten is so by something newer, before which it is told
+            self._tell_gap()
             self._take(kind, data)
         if self._end is not None:
             return self._close(self._end.state, self._end.reason)
@@ -92,7 +109,13 @@ class RingRecorder:
     def _tell_gap(self) -> None:
         lost, self._lost = self._reader.lost - self._lost, self._reader.lost
         if lost:
-            self._status(Status(self._latest, "recording_gap", f"{lost} messages lost: the log is written too slowly"))
+            self._status(
+                Status(
+                    self._latest,
+                    "recording_gap",
+                    f"{lost} messages lost: the log is written too slowly",
+                )
+            )
 
     def _flush(self) -> None:
         self._try(self._recorder.flush)

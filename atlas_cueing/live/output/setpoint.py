@@ -1,6 +1,7 @@
 """The set-point packet for a drive controller, version 1, and the socket that sends one every tick.
 
-A UDP datagram of 176 bytes, little-endian, without padding: all fields lie where a C struct of the same order has them.
+A UDP datagram of 176 bytes, little-endian, without padding: all fields lie where a C struct of the
+    same order has them.
 
 | offset | type         | field                                                                                            |
 |-------:|--------------|--------------------------------------------------------------------------------------------------|
@@ -20,14 +21,16 @@ A UDP datagram of 176 bytes, little-endian, without padding: all fields lie wher
 |    136 | double[3]    | stage acceleration, m/s^2                                                                        |
 |    160 | uint8[16]    | check of bytes 0 to 159                                                                          |
 
-Check 0: the CRC-32 of zlib, PNG and Ethernet as a uint32, then 12 zeros; it finds damage, not forgery, and is for loopback.
-Check 1: BLAKE2s (RFC 7693) with a shared key of 16 to 32 bytes, a digest of 16 bytes, no salt and no personalisation. Who has a
-key takes nothing but check 1. The key keeps out forged packets, and session and sequence replayed ones; but a receiver that has
-just been reset and has not heard its loop yet cannot tell an old session from a new one, except by its valid-from.
+Check 0: the CRC-32 of zlib, PNG and Ethernet as a uint32, then 12 zeros; it finds damage, not
+    forgery, and is for loopback.
+Check 1: BLAKE2s (RFC 7693) with a shared key of 16 to 32 bytes, a digest of 16 bytes, no salt and
+no personalisation. Who has a key takes nothing but check 1. The key keeps out forged packets, and
+session and sequence replayed ones; but a receiver that has just been reset and has not heard its
+loop yet cannot tell an old session from a new one, except by its valid-from.
 
-A receiver refuses a packet of another size, magic, version or state, with a wrong check or a number that is not finite, with a
-sequence or a valid-from that does not increase, or of another sender or session than the first good one (`receiver` does all
-that). Nothing in a packet is encrypted.
+A receiver refuses a packet of another size, magic, version or state, with a wrong check or a number
+that is not finite, with a sequence or a valid-from that does not increase, or of another sender or
+session than the first good one (`receiver` does all that). Nothing in a packet is encrypted.
 """
 
 import hmac
@@ -66,19 +69,37 @@ class SetPoint:
 
 
 def encode(
-    session: int, sequence: int, time: float, valid_from: float, state: int, command: Command, key: bytes = b""
+    session: int,
+    sequence: int,
+    time: float,
+    valid_from: float,
+    state: int,
+    command: Command,
+    key: bytes = b"",
 ) -> bytes:
     """The packet; `time` of the run and `valid_from` in s, `state` the place in LIVE_STATES, no key for CRC-32."""
     c = command
     content = _content.pack(
-        *(_MAGIC, VERSION, BLAKE2S if key else CRC32, state, session, sequence, round(valid_from * 1e9), time),
+        *(
+            _MAGIC,
+            VERSION,
+            BLAKE2S if key else CRC32,
+            state,
+            session,
+            sequence,
+            round(valid_from * 1e9),
+            time,
+        ),
         *(*c.wheel_speed, *c.wheel_acceleration, *c.p_WS_W, *c.v_WS_W, *c.a_WS_W),
     )
     return content + _check(content, key)
 
 
 def decode(packet: bytes, key: bytes = b"") -> SetPoint:
-    """The content of a packet. Raises SetPointError for a wrong size, magic, version, check, state or number."""
+    """The content of a packet.
+
+    Raises SetPointError for a wrong size, magic, version, check, state or number.
+    """
     if len(packet) != SIZE:
         raise SetPointError(f"packet of {len(packet)} bytes, allowed: {SIZE}")
     content = packet[: _content.size]
@@ -89,14 +110,23 @@ def decode(packet: bytes, key: bytes = b"") -> SetPoint:
         raise SetPointError(f"packet of version {version}, allowed: {VERSION}")
     wanted = BLAKE2S if key else CRC32
     if kind != wanted:
-        raise SetPointError(f"packet has check {kind}, allowed: {wanted}, as the receiver has {'a' if key else 'no'} key")
+        raise SetPointError(
+            f"packet has check {kind}, allowed: {wanted}, as the receiver has"
+            f" {'a' if key else 'no'} key"
+        )
     if not hmac.compare_digest(packet[_content.size :], _check(content, key)):
-        raise SetPointError(f"packet {sequence} has a wrong check: it is damaged, or its sender has another key")
+        raise SetPointError(
+            f"packet {sequence} has a wrong check: it is damaged, or its sender has another key"
+        )
     if state >= len(LIVE_STATES):
-        raise SetPointError(f"packet {sequence} has state {state}, allowed: 0 <= state <= {len(LIVE_STATES) - 1}")
+        raise SetPointError(
+            f"packet {sequence} has state {state}, allowed: 0 <= state <= {len(LIVE_STATES) - 1}"
+        )
     for place, number in enumerate(numbers):
         if not isfinite(number):
-            raise SetPointError(f"packet {sequence} has {number} as number {place}, allowed: finite numbers")
+            raise SetPointError(
+                f"packet {sequence} has {number} as number {place}, allowed: finite numbers"
+            )
     time, w1, w2, w3, b1, b2, b3, px, py, pz, vx, vy, vz, ax, ay, az = numbers
     command = Command(time, (w1, w2, w3), (b1, b2, b3), (px, py, pz), (vx, vy, vz), (ax, ay, az))
     return SetPoint(session, sequence, valid_from * 1e-9, LIVE_STATES[state], command)
@@ -111,7 +141,8 @@ class SetPointSender:
     def __init__(self, host: str, port: int, key: bytes = b"") -> None:
         """Connect to a numeric IPv4 address; one off this machine needs a shared key.
 
-        Raises InputError for an address without its key, one of a group or of all, and a bad port or key.
+        Raises InputError for an address without its key, one of a group or of all, and a bad port
+        or key.
         """
         check_key(key)
         _check_address(host, key)
@@ -125,12 +156,16 @@ class SetPointSender:
             self._socket.close()
             raise InputError(f"set points cannot be sent to {host}:{port}: {error}") from error
 
-    def send(self, sequence: int, time: float, valid_from: float, state: int, command: Command) -> None:
+    def send(
+        self, sequence: int, time: float, valid_from: float, state: int, command: Command
+    ) -> None:
         """Send one; see `encode`. What cannot be sent at once is not sent at all."""
         packet = encode(self._session, sequence, time, valid_from, state, command, self._key)
         try:
             self._socket.send(packet)
-        except OSError:  # BlockingIOError: the buffer is full; ConnectionRefusedError: nobody took the one before
+        except OSError:
+            # BlockingIOError: the buffer is full; ConnectionRefusedError: nobody took the one
+            # before
             self.unsent += 1
 
     def close(self) -> None:
@@ -141,18 +176,25 @@ class SetPointSender:
 def check_key(key: bytes) -> None:
     """Raises InputError for a key that is too short or too long; none at all is good."""
     if key and not SHORTEST_KEY <= len(key) <= LONGEST_KEY:
-        raise InputError(f"shared key of {len(key)} bytes, allowed: {SHORTEST_KEY} <= bytes <= {LONGEST_KEY}")
+        raise InputError(
+            f"shared key of {len(key)} bytes, allowed: {SHORTEST_KEY} <= bytes <= {LONGEST_KEY}"
+        )
 
 
 def _check_address(host: str, key: bytes) -> None:
     try:
         address = ipaddress.IPv4Address(host)
     except ValueError as error:
-        raise InputError(f"set-point receiver {host!r}: allowed: a numeric IPv4 address such as 127.0.0.1") from error
+        raise InputError(
+            f"set-point receiver {host!r}: allowed: a numeric IPv4 address such as 127.0.0.1"
+        ) from error
     if address.is_multicast or address.is_unspecified:
         raise InputError(f"set-point receiver {host}: allowed: the address of one machine")
     if not (address.is_loopback or key):
-        raise InputError(f"set-point receiver {host} is not on this machine: allowed with a shared key only, or 127.0.0.1")
+        raise InputError(
+            f"set-point receiver {host} is not on this machine: allowed with a shared key only, or"
+            " 127.0.0.1"
+        )
 
 
 def _check(content: bytes, key: bytes) -> bytes:

@@ -21,7 +21,11 @@ def timing(run: RecordedRun, field: str) -> Array:
 
 def check_deadlines(run: RecordedRun) -> list[Finding]:
     """Real time is behind the run's own by just the deadlines that were missed, and no tick began early."""
-    if not is_live(run) or len(run.flight.time) < 2 or len(timing(run, "elapsed_s")) != len(run.flight.time):
+    if (
+        not is_live(run)
+        or len(run.flight.time) < 2
+        or len(timing(run, "elapsed_s")) != len(run.flight.time)
+    ):
         return []
     time, late = run.flight.time, timing(run, "lateness_s")
     behind = np.diff(timing(run, "elapsed_s")) - np.diff(time)
@@ -31,7 +35,15 @@ def check_deadlines(run: RecordedRun) -> list[Finding]:
     early = np.where(late < 0.0, late, 0.0)
     return [
         *exceeding(check, place, time[1:], behind - missed, ROUNDING, "s", quantity="difference"),
-        *exceeding("a tick began early", ["/timing lateness_s"], time, early, 0.0, "s", quantity="|lateness|"),
+        *exceeding(
+            "a tick began early",
+            ["/timing lateness_s"],
+            time,
+            early,
+            0.0,
+            "s",
+            quantity="|lateness|",
+        ),
     ]
 
 
@@ -44,5 +56,7 @@ def punctuality_notes(run: RecordedRun) -> list[str]:
     told = [f"{missed} deadlines missed"] if missed else []
     for name, values in (("lateness", late), ("tick cost", cost)):
         p50, p99, p999 = np.percentile(values, [50.0, 99.0, 99.9], method="inverted_cdf")
-        told.append(f"{name} p50 {p50:.0f}, p99 {p99:.0f}, p99.9 {p999:.0f}, max {values.max():.0f} us")
+        told.append(
+            f"{name} p50 {p50:.0f}, p99 {p99:.0f}, p99.9 {p999:.0f}, max {values.max():.0f} us"
+        )
     return told

@@ -6,7 +6,8 @@ from ..finding import Array, Finding, exceeding
 from ..own_rotations import cross, turned, turned_back
 from ..recorded_run import RecordedRun
 
-FORCE = 1e-9  # m/s^2 and rad/s; the same formula in another order was within 1e-13 on every bundled flight
+# m/s^2 and rad/s; the same formula in another order was within 1e-13 on every bundled flight
+FORCE = 1e-9
 DIRECTION = 1e-7  # rad; angles near 0 and pi lose half the digits
 _GRAVITY_W = np.array([0.0, 0.0, -9.80665])
 _FRD = np.array([1.0, -1.0, -1.0])
@@ -19,12 +20,20 @@ def check_felt_force(run: RecordedRun) -> list[Finding]:
     angle = _angle(flight.vehicle_f_B, force)
     logged = run.log.column("/felt", "direction_error_rad")[: len(angle)]
     check, difference = "not what the motion makes the rider feel", "difference"
-    names_f, names_w = ([f"/felt {v}{c}_{unit}" for c in "xyz"] for v, unit in (("f", "m_s2"), ("w", "rad_s")))
+    names_f, names_w = (
+        [f"/felt {v}{c}_{unit}" for c in "xyz"] for v, unit in (("f", "m_s2"), ("w", "rad_s"))
+    )
     place = ["/felt direction_error_rad"]
     return [
-        *exceeding(check, names_f, flight.time, flight.felt_f - force, FORCE, "m/s2", quantity=difference),
-        *exceeding(check, names_w, flight.time, flight.felt_w - rate, FORCE, "rad/s", quantity=difference),
-        *exceeding(check, place, flight.time, logged - angle, DIRECTION, "rad", quantity=difference),
+        *exceeding(
+            check, names_f, flight.time, flight.felt_f - force, FORCE, "m/s2", quantity=difference
+        ),
+        *exceeding(
+            check, names_w, flight.time, flight.felt_w - rate, FORCE, "rad/s", quantity=difference
+        ),
+        *exceeding(
+            check, place, flight.time, logged - angle, DIRECTION, "rad", quantity=difference
+        ),
     ]
 
 
@@ -38,7 +47,10 @@ def felt_again(run: RecordedRun) -> tuple[Array, Array]:
 
 
 def _angle(a: Array, b: Array) -> Array:
-    """Angle between rows, by the half-angle formula: exact near 0 and near pi, where the cosine is not; 0 where one is zero."""
+    """Angle between rows, by the half-angle formula.
+
+    Exact near 0 and near pi, where the cosine is not; 0 where one is zero.
+    """
     length_a, length_b = (np.linalg.norm(v, axis=1, keepdims=True) for v in (a, b))
     u, v = a * length_b, b * length_a
     angle: Array = 2.0 * np.arctan2(np.linalg.norm(u - v, axis=1), np.linalg.norm(u + v, axis=1))

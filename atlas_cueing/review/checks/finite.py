@@ -10,10 +10,22 @@ def check_finite(run: RecordedRun) -> list[Finding]:
     """Fields that are not finite anywhere, and flags that are neither 0 nor 1."""
     found = []
     for topic, table in run.log.tables.items():
-        time = run.log.column(topic, "time_s") if "time_s" in table.fields else np.arange(float(len(table.values)))
+        time = (
+            run.log.column(topic, "time_s")
+            if "time_s" in table.fields
+            else np.arange(float(len(table.values)))
+        )
         good = np.isfinite(table.values)
         found += [
-            _finding("not a number", topic, table.fields[k], time, table.values[:, k], good[:, k], "finite")
+            _finding(
+                "not a number",
+                topic,
+                table.fields[k],
+                time,
+                table.values[:, k],
+                good[:, k],
+                "finite",
+            )
             for k in np.flatnonzero(~good.all(axis=0))
         ]
         for k, field in enumerate(table.fields):
@@ -25,9 +37,17 @@ def check_finite(run: RecordedRun) -> list[Finding]:
 
 
 def _finding(
-    check: str, topic: str, field: str, time: np.ndarray, values: np.ndarray, good: np.ndarray, allowed: str
+    check: str,
+    topic: str,
+    field: str,
+    time: np.ndarray,
+    values: np.ndarray,
+    good: np.ndarray,
+    allowed: str,
 ) -> Finding:
     first, count = int(np.argmin(good)), int((~good).sum())
     more = f" (the first of {count} ticks)" if count > 1 else ""
     when = float(time[first]) if np.isfinite(time[first]) else None
-    return Finding(check, f"{topic} {field}", when, f"value = {values[first]:g}, allowed: {allowed}{more}")
+    return Finding(
+        check, f"{topic} {field}", when, f"value = {values[first]:g}, allowed: {allowed}{more}"
+    )

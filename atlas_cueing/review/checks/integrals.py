@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 
 from ..finding import Array
 
-# Largest error of h/2 (v0 + v1) + h^2/12 (a0 - a1) for the integral of v with |v''| <= J, over J h^3: the integral of
-# |t (1 - t)/2 - 1/12| over the unit interval.
+# Largest error of h/2 (v0 + v1) + h^2/12 (a0 - a1) for the integral of v with |v''| <= J, over J
+# h^3: the integral of |t (1 - t)/2 - 1/12| over the unit interval.
 TURN = sqrt(3.0) / 54.0
 
 
@@ -36,6 +36,9 @@ def mean_step(v: Array, h: Array) -> Array:
 
 
 def turn(v: Array, a: Array, h: Array) -> Array:
-    """Change over each step by the corrected trapezoid rule: h/2 (v0 + v1) + h^2/12 (a0 - a1), (n - 1, k)."""
+    """Change over each step by the corrected trapezoid rule.
+
+    H/2 (v0 + v1) + h^2/12 (a0 - a1), (n - 1, k).
+    """
     step: Array = mean_step(v, h) + (h * h / 12.0)[:, None] * (a[:-1] - a[1:])
     return step

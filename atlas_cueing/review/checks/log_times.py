@@ -14,7 +14,11 @@ TRANSFORMS = 2.0 / 60.0  # s without a /tf, beside a tick; one is due every sixt
 
 def check_log_times(run: RecordedRun) -> list[Finding]:
     """Log time of each message: simulated time from 2000 on or, in a live log, real time elapsed from its start on; and /tf."""
-    tables = {topic.name: run.log.tables[topic.name] for topic in LIVE_TOPICS if topic.name in run.log.tables}
+    tables = {
+        topic.name: run.log.tables[topic.name]
+        for topic in LIVE_TOPICS
+        if topic.name in run.log.tables
+    }
     found = []
     for topic, table in tables.items():
         if len(table.log_times) == len(table.values) > 0:
@@ -32,7 +36,9 @@ def _stamps(run: RecordedRun, topic: str, log_times: np.ndarray) -> list[Finding
     off = (log_times.astype(np.int64) - start).astype(np.float64) - np.rint(since * 1e9)
     what = "elapsed_s" if live else "time_s"
     check = f"log time does not fit {what}"
-    allowed = ROUNDING + (0.0 if live else 1e9 * (rounding(time) + rounding(_seconds(log_times)))[:, None])
+    allowed = ROUNDING + (
+        0.0 if live else 1e9 * (rounding(time) + rounding(_seconds(log_times)))[:, None]
+    )
     return exceeding(check, [f"{topic} log_time"], time, off, allowed, "ns", quantity="difference")
 
 
@@ -45,7 +51,8 @@ def _seconds(log_times: np.ndarray) -> Array:
 def _start(since: Array, log_times: np.ndarray) -> int:
     """Wall clock at the start of a live run, by most of the ticks."""
     starts = log_times.astype(np.int64) - np.rint(since * 1e9).astype(np.int64)
-    return int(starts[0]) + int(np.median(starts - starts[0]))  # ns since 1970 are more than a double holds
+    # ns since 1970 are more than a double holds
+    return int(starts[0]) + int(np.median(starts - starts[0]))
 
 
 def _transforms(run: RecordedRun) -> list[Finding]:
@@ -62,7 +69,23 @@ def _transforms(run: RecordedRun) -> list[Finding]:
     at = np.append(time, flight.time[-1])
     longest = TRANSFORMS + run.step
     return [
-        *exceeding("no tick has this log time", ["/tf"], time, strange.astype(float), 0.0, "", quantity="messages"),
-        *exceeding("differs from /motion", [f"/tf {name}" for name in poses.fields], time, off, 0.0, "", quantity="difference"),
+        *exceeding(
+            "no tick has this log time",
+            ["/tf"],
+            time,
+            strange.astype(float),
+            0.0,
+            "",
+            quantity="messages",
+        ),
+        *exceeding(
+            "differs from /motion",
+            [f"/tf {name}" for name in poses.fields],
+            time,
+            off,
+            0.0,
+            "",
+            quantity="difference",
+        ),
         *exceeding("no /tf for too long", ["/tf"], at, gaps, longest, "s", quantity="gap"),
     ]

@@ -9,11 +9,16 @@ from .integrals import TURN, turn
 
 NORM = 1e-9  # quaternions are renormalised to 1e-15 each tick
 ROUNDING = 1e-10  # rad a tick; a hundred times what was seen on fifteen bundled flights
-DRIFT = 10.0  # errors of single ticks change sign with the jerk: they add up like a random walk, of which ten sigma are allowed
+# errors of single ticks change sign with the jerk: they add up like a random walk, of which ten
+# sigma are allowed
+DRIFT = 10.0
 
 
 def check_orientation(run: RecordedRun) -> list[Finding]:
-    """Norm and sign of each quaternion; the orientation as the integral of Omega, and of the wheels alone (Eq. 18, 20)."""
+    """Norm and sign of each quaternion.
+
+    The orientation as the integral of Omega, and of the wheels alone (Eq. 18, 20).
+    """
     flight = run.flight
     found = []
     for place, q in (
@@ -21,7 +26,15 @@ def check_orientation(run: RecordedRun) -> list[Finding]:
         ("/cue q_ws", flight.cue_q_WS),
         ("/motion q_ws", flight.motion_q_WS),
     ):
-        found += exceeding("norm", [place], flight.time, np.linalg.norm(q, axis=1) - 1.0, NORM, "", quantity="||q| - 1|")
+        found += exceeding(
+            "norm",
+            [place],
+            flight.time,
+            np.linalg.norm(q, axis=1) - 1.0,
+            NORM,
+            "",
+            quantity="||q| - 1|",
+        )
         found += _flips(place, flight.time, q)
     if len(flight.time) < 2:
         return found
@@ -55,7 +68,9 @@ def tick_error(run: RecordedRun) -> Array:
     The wheels' bound through J, and as much again of the commutator when the axis turns through the angle |Omega| h.
     """
     h = np.diff(run.flight.time)[:, None]
-    jerk = np.linalg.norm(np.abs(run.sphere_from_wheels()) @ np.array(run.platform.wheel_limit_values().jerk))
+    jerk = np.linalg.norm(
+        np.abs(run.sphere_from_wheels()) @ np.array(run.platform.wheel_limit_values().jerk)
+    )
     rate = np.linalg.norm(run.flight.motion_w_W, axis=1)
     fastest = np.maximum(rate[:-1], rate[1:])[:, None]
     allowed: Array = TURN * jerk * np.abs(h) ** 3 * (1.0 + fastest * np.abs(h)) + ROUNDING
@@ -65,7 +80,8 @@ def tick_error(run: RecordedRun) -> Array:
 def _wheel_drift(run: RecordedRun, allowed: Array) -> list[Finding]:
     """The wheels alone, integrated from the first orientation on, against the logged one.
 
-    To first order the difference is the sum of what each tick leaves unexplained, carried along with the cabin.
+    To first order the difference is the sum of what each tick leaves unexplained, carried along
+    with the cabin.
     """
     flight, to_sphere = run.flight, run.sphere_from_wheels().T
     left = unexplained(run, flight.wheel_speed @ to_sphere, flight.wheel_acceleration @ to_sphere)
@@ -79,4 +95,6 @@ def _wheel_drift(run: RecordedRun, allowed: Array) -> list[Finding]:
 def _flips(place: str, time: Array, q: Array) -> list[Finding]:
     """Turns of sign: q and -q are one orientation, but a log that changes between them draws and interpolates wrongly."""
     along = np.sum(q[:-1] * q[1:], axis=1)
-    return exceeding("sign flips", [place], time[1:], np.minimum(along, 0.0), 0.0, "", quantity="-q0.q1")
+    return exceeding(
+        "sign flips", [place], time[1:], np.minimum(along, 0.0), 0.0, "", quantity="-q0.q1"
+    )

@@ -10,9 +10,10 @@ COARSEST = 1e-6  # s; stamps of microseconds are rounded by half of it, coarser 
 def rounding(time: Array) -> Array:
     """Bound (n,), s, of what rounding does to times (n,), s, that are k dt up to rounding.
 
-    Stamps rounded to whole ns or us, or kept as seconds since 1970 in a double (119 ns), are off an even
-    grid by a quarter of their resolution in the middle and half of it at most; so four times the median
-    is enough, and one odd tick does not raise it. Sums of k steps are off by k roundings of a double.
+    Stamps rounded to whole ns or us, or kept as seconds since 1970 in a double (119 ns), are off an
+    even grid by a quarter of their resolution in the middle and half of it at most; so four times
+    the median is enough, and one odd tick does not raise it. Sums of k steps are off by k roundings
+    of a double.
     """
     ticks = np.arange(len(time), dtype=np.float64)
     finite = np.nan_to_num(time)

@@ -7,10 +7,12 @@ from ..finding import Array, Finding, exceeding
 from ..own_rotations import inverse, product, to_vector
 from ..recorded_run import RecordedRun
 
-# States that say all is well. Others are told as notes, and those that say something broke are findings.
+# States that say all is well. Others are told as notes, and those that say something broke are
+# findings.
 CALM = ("running", "done")
 BROKEN = ("fail", "fault", "interrupt", "stopped")
-JUMP = np.radians(0.6)  # a run notes jumps from 0.5 deg on; near that bound two ways of reckoning may differ
+# a run notes jumps from 0.5 deg on; near that bound two ways of reckoning may differ
+JUMP = np.radians(0.6)
 
 
 def check_status(run: RecordedRun) -> list[Finding]:
@@ -23,7 +25,12 @@ def check_status(run: RecordedRun) -> list[Finding]:
         found.append(Finding("result", "atlas.run", None, text))
     elif result != "ok":
         found.append(
-            Finding("result", "atlas.run", None, f"result = {result!r}, allowed: 'ok'" + (f"; {reason}" if reason else ""))
+            Finding(
+                "result",
+                "atlas.run",
+                None,
+                f"result = {result!r}, allowed: 'ok'" + (f"; {reason}" if reason else ""),
+            )
         )
     found += [
         Finding("fault", "/status", status.time, f"{status.state}: {status.reason}".rstrip(": "))
@@ -46,9 +53,16 @@ def notes(run: RecordedRun) -> list[str]:
 
 
 def spells(run: RecordedRun) -> list[tuple[float, float | None, Status]]:
-    """Each spell of a state that is not calm: when it began and ended, s (None: never), and what was said of it."""
+    """Each spell of a state that is not calm: when it began and ended, s (None.
+
+    Never), and what was said of it.
+    """
     ends = [*(status.time for status in run.log.statuses[1:]), None]
-    return [(status.time, end, status) for status, end in zip(run.log.statuses, ends, strict=False) if status.state not in CALM]
+    return [
+        (status.time, end, status)
+        for status, end in zip(run.log.statuses, ends, strict=False)
+        if status.state not in CALM
+    ]
 
 
 def _is_broken(status: Status) -> bool:
@@ -64,11 +78,16 @@ def _untold_jumps(run: RecordedRun) -> list[Finding]:
     step = to_vector(product(inverse(q[:-1]), q[1:])) - 0.5 * h * (w[:-1] + w[1:])
     untold = np.where(_calm(run, flight.time[1:]), np.linalg.norm(step, axis=1), 0.0)
     check = "attitude jumps and no state tells of it"
-    return exceeding(check, ["/vehicle q_nb"], flight.time[1:], untold, JUMP, "rad", quantity="step")
+    return exceeding(
+        check, ["/vehicle q_nb"], flight.time[1:], untold, JUMP, "rad", quantity="step"
+    )
 
 
 def _calm(run: RecordedRun, time: Array) -> np.ndarray:
-    """Whether no state but calm ones held or began at each time; without any states all are calm."""
+    """Whether no state but calm ones held or began at each time.
+
+    Without any states all are calm.
+    """
     statuses = sorted(run.log.statuses, key=lambda status: status.time)
     calm = np.array([True, *(status.state in CALM for status in statuses)])
     held = calm[np.searchsorted([status.time for status in statuses], time, side="right")]

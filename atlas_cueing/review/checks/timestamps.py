@@ -21,15 +21,33 @@ def check_timestamps(run: RecordedRun) -> list[Finding]:
     for topic in TOPICS:
         place, off = [f"{topic} time_s"], times[topic] - time
         allowed = (rounding(time) + rounding(times[topic]))[:, None]
-        found += exceeding("time differs from /motion", place, time, off, allowed, "s", quantity="difference")
+        found += exceeding(
+            "time differs from /motion", place, time, off, allowed, "s", quantity="difference"
+        )
     steps = np.diff(time)
     if len(steps):
         back = steps <= 0.0
         gap = ~back & (steps > GAP * step)
         uneven = np.where(back | gap, 0.0, steps - step)
         found += _back(time, steps) if back.any() else []
-        found += exceeding("gap", ["/motion time_s"], time[1:], np.where(gap, steps, 0.0), GAP * step, "s", quantity="step")
-        found += exceeding("uneven time", ["/motion time_s"], time[1:], uneven, UNEVEN * step, "s", quantity="|step - median|")
+        found += exceeding(
+            "gap",
+            ["/motion time_s"],
+            time[1:],
+            np.where(gap, steps, 0.0),
+            GAP * step,
+            "s",
+            quantity="step",
+        )
+        found += exceeding(
+            "uneven time",
+            ["/motion time_s"],
+            time[1:],
+            uneven,
+            UNEVEN * step,
+            "s",
+            quantity="|step - median|",
+        )
     return found
 
 
@@ -47,5 +65,8 @@ def _lost(times: dict[str, np.ndarray], counts: dict[str, int]) -> Finding:
     short, long = times[few], times[many]
     same = short == long[: len(short)]
     first = float(long[len(short) if same.all() else int(np.argmin(same))])
-    text = f"{counts[few]} messages where {many} has {counts[many]}; all later columns are out of step and were not checked"
+    text = (
+        f"{counts[few]} messages where {many} has {counts[many]}; all later columns are out of step"
+        " and were not checked"
+    )
     return Finding("ticks lost", few, first, text)

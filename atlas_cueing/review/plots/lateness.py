@@ -16,16 +16,26 @@ _BINS = 120
 
 
 def punctuality(run: RecordedRun) -> Any:
-    """Lateness and cost of the ticks: how often, and when; age of the input and missed deadlines beside them."""
+    """Lateness and cost of the ticks: how often, and when.
+
+    Age of the input and missed deadlines beside them.
+    """
     late, cost, age, missed = (
-        coloured(name, SERIES[k]) for k, name in enumerate(("lateness", "tick cost", "input age", "missed"))
+        coloured(name, SERIES[k])
+        for k, name in enumerate(("lateness", "tick cost", "input age", "missed"))
     )
-    titles = [f"how many ticks: {late}, {cost}", "over time, µs", f"{age}, ms, and deadlines {missed}"]
+    titles = [
+        f"how many ticks: {late}, {cost}",
+        "over time, µs",
+        f"{age}, ms, and deadlines {missed}",
+    ]
     figure = make_subplots(rows=1, cols=3, subplot_titles=titles)
     for k, (name, field) in enumerate((("lateness", "lateness_s"), ("tick cost", "cost_s"))):
         values = 1e6 * timing(run, field)
         counts, edges = _histogram(values)
-        bars = go.Bar(x=edges, y=counts, name=name, legendgroup=name, marker_color=SERIES[k], opacity=0.6)
+        bars = go.Bar(
+            x=edges, y=counts, name=name, legendgroup=name, marker_color=SERIES[k], opacity=0.6
+        )
         figure.add_trace(bars, row=1, col=1)
         _add(figure, 2, run.flight.time, values, name, SERIES[k])
     _add(figure, 3, run.flight.time, 1e3 * timing(run, "input_age_s"), "input age", SERIES[0])

@@ -9,7 +9,8 @@ from ..recorded_run import RecordedRun
 from .downsample import thinned
 from .time_series import DEGREES, FELT, VEHICLE, line, styled
 
-SEGMENT = 20.0  # s; resolves 0.05 Hz (assumed: half the lowest frequency that motion cueing is tested at)
+# s; resolves 0.05 Hz (assumed: half the lowest frequency that motion cueing is tested at)
+SEGMENT = 20.0
 DECADES = 10.0  # of power shown below the largest; under that is rounding
 
 
@@ -29,10 +30,16 @@ def spectra(run: RecordedRun) -> Any:
     for column, factor, vehicle, felt in pairs if fair else ():
         most = 0.0
         for name, values, colour in (("vehicle", vehicle, VEHICLE), ("rider", felt, FELT)):
-            hertz, power = welch(factor * np.nan_to_num(values), 1.0 / run.step, nperseg=length, axis=0)
+            hertz, power = welch(
+                factor * np.nan_to_num(values), 1.0 / run.step, nperseg=length, axis=0
+            )
             total = power[1:].sum(axis=1)
             kept = thinned(total[:, None])
-            figure.add_trace(line(hertz[1:][kept], total[kept], name, colour, legend=column == 1), row=1, col=column)
+            figure.add_trace(
+                line(hertz[1:][kept], total[kept], name, colour, legend=column == 1),
+                row=1,
+                col=column,
+            )
             most = max(most, float(total.max()))
         if 0.0 < most < np.inf:
             top = np.log10(most) + 0.5

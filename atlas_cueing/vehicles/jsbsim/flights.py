@@ -5,7 +5,8 @@ from pathlib import Path
 
 DEFAULT_RATE_HZ = 120.0  # of an AircraftFlight; the step of most of JSBSim's own scripts
 MIN_RATE_HZ = 10.0  # below it the explicit integrators of JSBSim diverge on ordinary aircraft
-MAX_RATE_HZ = 10_000.0  # above it rounding of the step is all that is gained; the fastest own script runs at 1000 Hz
+# above it rounding of the step is all that is gained; the fastest own script runs at 1000 Hz
+MAX_RATE_HZ = 10_000.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,13 +32,14 @@ class InitialConditions:
     """State at time 0, in still air unless an input at time 0 sets a wind.
 
     altitude: of the centre of gravity above mean sea level, m; the ground lies at 0.
-    airspeed: true airspeed, m/s. The velocity points along the body x axis (no angle of attack, no sideslip), so without trim
-        the flight path climbs at `pitch`.
+    airspeed: true airspeed, m/s. The velocity points along the body x axis (no angle of attack, no
+        sideslip), so without trim the flight path climbs at `pitch`.
     heading, pitch, roll: Euler angles, rad; heading from true north.
     latitude, longitude: geodetic, rad.
     engines_running: all engines run at time 0.
-    trim: find controls and attitude of equilibrium first. In flight: full trim along the flight path given by `pitch`, which
-        changes pitch and roll. Standing near the ground (see `start.py`): settled on the gear.
+    trim: find controls and attitude of equilibrium first. In flight: full trim along the flight
+        path given by `pitch`, which changes pitch and roll. Standing near the ground (see
+        `start.py`): settled on the gear.
     """
 
     altitude: float

@@ -13,7 +13,8 @@ from .flights import InitialConditions
 from .readings import METRES_PER_FOOT
 
 # Force of the ground in the first state, in weights (assumed). At rest it is 1; gear is built for
-# landings of 2 to 3 (14 CFR 23.473); JSBSim's own aircraft, put to altitude 0, begin with 5 or more.
+# landings of 2 to 3 (14 CFR 23.473); JSBSim's own aircraft, put to altitude 0, begin with 5 or
+# more.
 HARDEST_START = 2.0
 
 _Unit: TypeAlias = dict[str, float]
@@ -34,15 +35,18 @@ def check_standing(fdm: jsbsim.FGFDMExec, initial: InitialConditions) -> None:
     above = ceil(10.0 * (initial.altitude + depth)) / 10.0
     times = f"{force:.3g} times its weight" if isfinite(force) else "no finite force"
     raise StartError(
-        f"initial.altitude_m = {initial.altitude:g}: it is that of the centre of gravity, so the "
-        f"aircraft begins {depth:.3g} m in the ground, with {times} on its gear, allowed: at most "
-        f"{HARDEST_START:g}; at rest trim = true sets it on its wheels, and altitude_m >= {above:g} "
-        "is above the ground"
+        f"initial.altitude_m = {initial.altitude:g}: it is that of the centre of gravity, so the"
+        f" aircraft begins {depth:.3g} m in the ground, with {times} on its gear, allowed: at most"
+        f" {HARDEST_START:g}; at rest trim = true sets it on its wheels, and altitude_m >="
+        f" {above:g} is above the ground"
     )
 
 
 def stand_objection(fdm: jsbsim.FGFDMExec) -> str:
-    """Why a trim on the ground is not to be tried, as JSBSim would end the process; else nothing."""
+    """Why a trim on the ground is not to be tried, as JSBSim would end the process.
+
+    Else nothing.
+    """
     if not isfinite(_force(fdm)):
         return "the force on its gear is not finite"
     return "" if _triangle(fdm) else "no three points of its gear make a triangle to stand on"
@@ -54,7 +58,9 @@ def has_flat_gear(fdm: jsbsim.FGFDMExec) -> bool:
 
 
 def _triangle(fdm: jsbsim.FGFDMExec) -> bool:
-    points: list[Vec3] = [(unit["x-position"], unit["y-position"], unit["z-position"]) for unit in _units(fdm)]
+    points: list[Vec3] = [
+        (unit["x-position"], unit["y-position"], unit["z-position"]) for unit in _units(fdm)
+    ]
     sides = ((subtract(b, a), subtract(c, a)) for a, b, c in combinations(points, 3))
     return any(norm(cross(first, second)) > _SMALLEST_TRIANGLE for first, second in sides)
 
@@ -71,4 +77,7 @@ def _units(fdm: jsbsim.FGFDMExec) -> Iterator[_Unit]:
         for kind in ("gear", "contact"):
             node = manager.get_node(f"{kind}/unit[{index}]")
             if node:
-                yield {name: fdm[f"{kind}/unit[{index}]/{name}"] for name in (*_POSITION, "compression-ft")}
+                yield {
+                    name: fdm[f"{kind}/unit[{index}]/{name}"]
+                    for name in (*_POSITION, "compression-ft")
+                }

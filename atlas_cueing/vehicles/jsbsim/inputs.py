@@ -99,5 +99,6 @@ def _check(event: TimedInput) -> None:
         raise InputError(f"input on {event.property!r}: value = {event.value}; must be finite")
     if not (0.0 <= event.time < float("inf") and 0.0 <= event.ramp < float("inf")):
         raise InputError(
-            f"input on {event.property!r}: time = {event.time} s, ramp = {event.ramp} s; must be finite and not negative"
+            f"input on {event.property!r}: time = {event.time} s, ramp = {event.ramp} s; must be"
+            " finite and not negative"
         )

@@ -5,7 +5,8 @@ import logging
 import jsbsim
 
 LOGGER = logging.getLogger("atlas_cueing.jsbsim")
-LOGGER.addHandler(logging.NullHandler())  # without it logging's last resort prints warnings to stderr
+# without it logging's last resort prints warnings to stderr
+LOGGER.addHandler(logging.NullHandler())
 
 _LEVELS = {
     jsbsim.LogLevel.BULK: logging.DEBUG,
@@ -19,7 +20,10 @@ _LEVELS = {
 
 
 class JsbsimLog(jsbsim.FGLogger):
-    """Gathers the fragments of each record; `complaint` keeps the last error for messages of our own."""
+    """Gathers the fragments of each record.
+
+    `complaint` keeps the last error for messages of our own.
+    """
 
     def __init__(self) -> None:
         super().__init__()

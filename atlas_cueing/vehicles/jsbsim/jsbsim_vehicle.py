@@ -19,7 +19,9 @@ _DURATION_TOLERANCE = 1e-6  # steps; a duration of n dt is n steps however it wa
 
 
 class JsbsimVehicle:
-    """A flight in JSBSim, one state a step, the first at time 0; built and advanced in one thread (JSBSim logs per thread).
+    """A flight in JSBSim, one state a step, the first at time 0.
+
+    Built and advanced in one thread (JSBSim logs per thread).
 
     Time is the number of steps times dt, whatever the script does to JSBSim's own clock. A script
     that trims or resets in mid-run makes the attitude jump; nothing is smoothed here. One that
@@ -58,7 +60,8 @@ class JsbsimVehicle:
     def advance(self) -> bool:
         """Go one step on; False at the end of the script or the duration.
 
-        Raises VehicleError, with `state` left at the last good one, when JSBSim fails or its state is out of bounds.
+        Raises VehicleError, with `state` left at the last good one, when JSBSim fails or its state
+        is out of bounds.
         """
         if self._step >= self._last_step:
             return False
@@ -83,7 +86,9 @@ class JsbsimVehicle:
     def _check_clock(self, before: float, time: float) -> None:
         """Of a script that stops the clock or sets it back: it must come to its end all the same."""
         if self._fdm.get_sim_time() == before:
-            raise VehicleError(time, "JSBSim's clock stands still; a script that holds it never ends")
+            raise VehicleError(
+                time, "JSBSim's clock stands still; a script that holds it never ends"
+            )
         self._resets_left -= 1
         if self._resets_left < 0:
             back = f"has set JSBSim's clock back more than {MOST_RESETS} times (simulation/reset)"
@@ -103,7 +108,10 @@ class JsbsimVehicle:
 
 
 def _last_step(duration: float | None, dt: float) -> float:
-    """Number of the last step inside the duration; InputError when the duration is not positive and finite."""
+    """Number of the last step inside the duration.
+
+    InputError when the duration is not positive and finite.
+    """
     if duration is None:
         return inf
     if not 0.0 < duration < inf:

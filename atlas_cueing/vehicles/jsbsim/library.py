@@ -43,7 +43,10 @@ def own_aircraft() -> dict[str, Path]:
 
 
 def is_property_name(name: str) -> bool:
-    """Whether a text can name a property; asked for one that cannot, JSBSim ends the process, and `..` it takes in silence."""
+    """Whether a text can name a property.
+
+    Asked for one that cannot, JSBSim ends the process, and `..` it takes in silence.
+    """
     return _PROPERTY.fullmatch(name) is not None
 
 

@@ -37,7 +37,8 @@ from .user_models import SHARED, aircraft_objection, plain_name
 
 LATEST_END = 1e6  # s, of a script; the longest own one, a balloon's, goes on for a week (6e5 s)
 AIRCRAFT_KEY = "aircraft"  # of a scenario, for messages
-_OUTPUT = "simulation/output/"  # properties of the outputs that were left out; scripts may go on setting them
+# properties of the outputs that were left out; scripts may go on setting them
+_OUTPUT = "simulation/output/"
 _SILENT = 0  # debug level: no reports on what was loaded
 
 
@@ -69,7 +70,9 @@ def _refuse_names(*folders: str) -> None:
     """Refuse folders that JSBSim cannot be told of: it takes only names that are UTF-8."""
     for folder in folders:
         if utf8(folder) != folder:
-            raise OutputError(f"folder {folder}: its name is not UTF-8, which JSBSim needs; set TMPDIR")
+            raise OutputError(
+                f"folder {folder}: its name is not UTF-8, which JSBSim needs; set TMPDIR"
+            )
 
 
 @contextmanager
@@ -93,7 +96,9 @@ def _load_script(fdm: jsbsim.FGFDMExec, flight: ScriptFlight, folder: Path, log:
     _check_names(tree, script, fdm)
 
 
-def _load_aircraft(fdm: jsbsim.FGFDMExec, flight: AircraftFlight, folder: Path, log: JsbsimLog) -> None:
+def _load_aircraft(
+    fdm: jsbsim.FGFDMExec, flight: AircraftFlight, folder: Path, log: JsbsimLog
+) -> None:
     objection = aircraft_objection(flight.aircraft, flight.models)
     if objection:
         raise InputError(objection)
@@ -104,7 +109,10 @@ def _load_aircraft(fdm: jsbsim.FGFDMExec, flight: AircraftFlight, folder: Path, 
 
 
 def _point_to_copies(fdm: jsbsim.FGFDMExec, folder: Path, models: Path | None) -> dict[str, str]:
-    """Let JSBSim look at copies of a user's engines and systems; gives what each folder is a copy of."""
+    """Let JSBSim look at copies of a user's engines and systems.
+
+    Gives what each folder is a copy of.
+    """
     if not (folder / SHARED[0]).exists():
         return {f"{folder}/aircraft": f"{root()}/aircraft"}
     fdm.set_engine_path(str(folder / SHARED[0]))
@@ -133,13 +141,18 @@ def _disarm(fdm: jsbsim.FGFDMExec) -> None:
 
 
 def _check_step(dt: str, script: Path) -> None:
-    """Refuse a step out of bounds before JSBSim sees it: a negative one kills the process. What is no number it refuses."""
+    """Refuse a step out of bounds before JSBSim sees it: a negative one kills the process.
+
+    What is no number it refuses.
+    """
     try:
         step = float(dt)
     except ValueError:
         return
     if not 1.0 / MAX_RATE_HZ <= step <= 1.0 / MIN_RATE_HZ:
-        raise InputError(f"{script}: dt = {dt} s, allowed: {1.0 / MAX_RATE_HZ:g} <= dt <= {1.0 / MIN_RATE_HZ:g}")
+        raise InputError(
+            f"{script}: dt = {dt} s, allowed: {1.0 / MAX_RATE_HZ:g} <= dt <= {1.0 / MIN_RATE_HZ:g}"
+        )
 
 
 def _check_end(end: str, script: Path) -> None:
@@ -159,13 +172,17 @@ def _check_names(tree: Element, script: Path, fdm: jsbsim.FGFDMExec) -> None:
         if name.startswith(_OUTPUT) and is_property_name(name):
             manager.get_node(name, create=True)
         elif not (is_property_name(name) and manager.hasNode(name)):
-            raise InputError(f"{script}: unknown JSBSim property {name!r}{suggestion(name, writable_names(fdm))}")
+            raise InputError(
+                f"{script}: unknown JSBSim property {name!r}{suggestion(name, writable_names(fdm))}"
+            )
 
 
 def _checked(rate_hz: float) -> float:
     """A rate inside its bounds: JSBSim itself takes a step of 0, below 0 or NaN."""
     if not MIN_RATE_HZ <= rate_hz <= MAX_RATE_HZ:
-        raise InputError(f"rate {rate_hz:g} Hz, allowed: {MIN_RATE_HZ:g} <= rate_hz <= {MAX_RATE_HZ:g}")
+        raise InputError(
+            f"rate {rate_hz:g} Hz, allowed: {MIN_RATE_HZ:g} <= rate_hz <= {MAX_RATE_HZ:g}"
+        )
     return rate_hz
 
 
@@ -175,7 +192,11 @@ def input_objections(aircraft: str, models: Path | None, names: Iterable[str]) -
     Raises StartError when the aircraft does not load.
     """
     fdm = _loaded(aircraft, models)
-    return {name: objection for name in dict.fromkeys(names) if (objection := property_objection(name, fdm))}
+    return {
+        name: objection
+        for name in dict.fromkeys(names)
+        if (objection := property_objection(name, fdm))
+    }
 
 
 @lru_cache(maxsize=4)  # the runs of a sweep have one aircraft, or a few

@@ -1,11 +1,12 @@
 """Copies of JSBSim's input files that can neither write files nor open sockets.
 
-A script or model may carry `<output>` (a file in the working directory or at any path, UDP or TCP) and `<input port>` (listens
-on all interfaces). Switching them off after loading is too late: file and socket are open by then. So JSBSim is given copies
-without them, in a private folder that is gone before the first step. A script names files only by
-plain names: its aircraft is one of JSBSim's own or the user's, its initial conditions lie beside it
-or with the aircraft, and no element refers to any other file. An aircraft of the user's own is
-copied with the files that it names, none of which lead out of the user's folder.
+A script or model may carry `<output>` (a file in the working directory or at any path, UDP or TCP)
+and `<input port>` (listens on all interfaces). Switching them off after loading is too late: file
+and socket are open by then. So JSBSim is given copies without them, in a private folder that is
+gone before the first step. A script names files only by plain names: its aircraft is one of
+JSBSim's own or the user's, its initial conditions lie beside it or with the aircraft, and no
+element refers to any other file. An aircraft of the user's own is copied with the files that it
+names, none of which lead out of the user's folder.
 """
 
 import os
@@ -26,14 +27,19 @@ from .user_models import (
 )
 
 MAX_FILE_BYTES = 20_000_000  # the largest own file has 0.4 MB
-MAX_DEPTH = 100  # of nested elements; own files stay below 20, and JSBSim's parser overruns its stack at some 100,000
-_PORTS = ("output", "input")  # as children of the root; deeper ones are names of signals in control systems
+# of nested elements; own files stay below 20, and JSBSim's parser overruns its stack at some
+# 100,000
+MAX_DEPTH = 100
+# as children of the root; deeper ones are names of signals in control systems
+_PORTS = ("output", "input")
 SCRIPT_COPY = "script copy.xml"  # with a space, which no file of initial conditions has
 _PLAIN_NAME = re.compile(r"[\w.-]+", re.ASCII)
 
 
 def copy_script(script: Path, folder: Path, models: Path | None = None) -> tuple[ET.Element, Path]:
-    """Write a quiet copy of the script and of its aircraft; gives the script's tree and the copy's path.
+    """Write a quiet copy of the script and of its aircraft.
+
+    Gives the script's tree and the copy's path.
 
     models: folder of a user's own aircraft. Raises InputError when the script is unreadable, not a
     script, or asks for an aircraft that is neither JSBSim's nor there.
@@ -47,7 +53,10 @@ def copy_script(script: Path, folder: Path, models: Path | None = None) -> tuple
     if objection:
         raise InputError(f"{script}: {objection}")
     if initial and not _PLAIN_NAME.fullmatch(initial):
-        raise InputError(f"{script}: initialize = {initial!r}, allowed: a file's name of letters, digits, '.', '_', '-'")
+        raise InputError(
+            f"{script}: initialize = {initial!r}, allowed: a file's name of letters, digits, '.',"
+            " '_', '-'"
+        )
     own_initial = beside(script, initial)
     copy_aircraft(aircraft, folder, models, initial)
     use.set("aircraft", plain_name(aircraft))
@@ -59,17 +68,26 @@ def copy_script(script: Path, folder: Path, models: Path | None = None) -> tuple
 
 
 def beside(script: Path, initialize: str) -> Path | None:
-    """The file of initial conditions in the script's own folder, links resolved; None when it is not there."""
+    """The file of initial conditions in the script's own folder, links resolved.
+
+    None when it is not there.
+    """
     folder = script.parent.resolve()
     try:
         path = (folder / f"{initialize.removesuffix('.xml')}.xml").resolve()
-        return path if path.is_file() and path.parent == folder and path != script.resolve() else None
+        return (
+            path if path.is_file() and path.parent == folder and path != script.resolve() else None
+        )
     except (OSError, RuntimeError):  # a name that is too long, links in a circle
         return None
 
 
-def copy_aircraft(aircraft: str, folder: Path, models: Path | None = None, initialize: str = "") -> Path:
-    """Write a quiet copy of an aircraft's model and of what it needs; gives the folder of all aircraft.
+def copy_aircraft(
+    aircraft: str, folder: Path, models: Path | None = None, initialize: str = ""
+) -> Path:
+    """Write a quiet copy of an aircraft's model and of what it needs.
+
+    Gives the folder of all aircraft.
 
     It is one of JSBSim's own, or the user's in `models`, with the initial conditions that a script
     asks for.
@@ -114,8 +132,8 @@ def _check_references(tree: ET.Element, path: Path) -> None:
         reference = element.attrib.get("file", "").strip()
         if reference and not is_plain_reference(reference):
             raise InputError(
-                f"{path}: <{element.tag} file={reference!r}>, allowed: a path of plain names that leads "
-                "nowhere else, of letters, digits, ' ', '.', '_', '-'"
+                f"{path}: <{element.tag} file={reference!r}>, allowed: a path of plain names that"
+                " leads nowhere else, of letters, digits, ' ', '.', '_', '-'"
             )
 
 
@@ -125,16 +143,24 @@ def _leave_out_ports(tree: ET.Element) -> None:
 
 
 def _refuse_files(tree: ET.Element, path: Path) -> None:
-    """A script needs no files but those of its `use`; models, which JSBSim ships, are made of many."""
+    """A script needs no files but those of its `use`.
+
+    Models, which JSBSim ships, are made of many.
+    """
     for element in tree.iter():
         if "file" in element.attrib:
-            raise InputError(f"{path}: <{element.tag} file={element.attrib['file']!r}>, allowed: no references to files")
+            raise InputError(
+                f"{path}: <{element.tag} file={element.attrib['file']!r}>, allowed: no references"
+                " to files"
+            )
 
 
 def _use(tree: ET.Element, script: Path) -> ET.Element:
     found = tree.findall("use")
     if len(found) != 1:  # or JSBSim might look at another than we do
-        raise InputError(f"{script}: {len(found)} elements <use>, allowed: one, with an aircraft of JSBSim's own")
+        raise InputError(
+            f"{script}: {len(found)} elements <use>, allowed: one, with an aircraft of JSBSim's own"
+        )
     return found[0]
 
 
@@ -144,9 +170,15 @@ def _write(tree: ET.Element, path: Path) -> Path:
 
 
 def _read(path: Path, root_tag: str) -> ET.Element:
-    """Parse a file of the given root element (of any, if it is empty); InputError says what is wrong with it otherwise."""
+    """Parse a file of the given root element (of any, if it is empty).
+
+    InputError says what is wrong with it otherwise.
+    """
     try:
-        size, most = path.stat().st_size, MAX_FILE_BYTES if path.is_relative_to(root()) else MAX_USERS_BYTES
+        size, most = (
+            path.stat().st_size,
+            (MAX_FILE_BYTES if path.is_relative_to(root()) else MAX_USERS_BYTES),
+        )
         if size > most:
             raise InputError(f"{path}: {size} bytes; at most {most}")
         parser = ET.XMLParser(target=_ShallowTree(path))  # noqa: S314  expat itself refuses entity bombs

@@ -19,30 +19,41 @@ _NEAR_VERTICAL: Final = 0.5 * pi - 1e-6  # rad of pitch
 class Readings:
     """Reads states; property nodes are looked up once, since a look-up costs six times a reading.
 
-    Attitude comes from the Euler angles, a tenth of the cost of JSBSim's matrix. They differ from it by 6e-16 rad over the
-    distance of the pitch from +-90 deg, and closer than 1e-8 rad (a rocket on its pad) by up to half a turn: there the heading
-    that belongs to the roll is taken from the matrix.
+    Attitude comes from the Euler angles, a tenth of the cost of JSBSim's matrix. They differ from
+    it by 6e-16 rad over the distance of the pitch from +-90 deg, and closer than 1e-8 rad (a rocket
+    on its pad) by up to half a turn: there the heading that belongs to the roll is taken from the
+    matrix.
 
-    A vehicle at rest shows standard gravity anywhere: forces are scaled by it over the apparent gravity, which is JSBSim's
-    gravitation less the centrifugal part of the Earth's turn (0.034 m/s^2 at the equator), taken at the starting point.
+    A vehicle at rest shows standard gravity anywhere: forces are scaled by it over the apparent
+    gravity, which is JSBSim's gravitation less the centrifugal part of the Earth's turn (0.034
+    m/s^2 at the equator), taken at the starting point.
 
-    JSBSim computes the force at the pilot's eye (`a-pilot`) before the accelerations of the same step, so it is one step old
-    in every state but the first.
+    JSBSim computes the force at the pilot's eye (`a-pilot`) before the accelerations of the same
+    step, so it is one step old in every state but the first.
     """
 
     def __init__(self, fdm: jsbsim.FGFDMExec) -> None:
         self._psi, self._theta, self._phi = _nodes(fdm, "attitude/%s-rad", "psi", "theta", "phi")
         self._p, self._q, self._r = _nodes(fdm, "velocities/%s-rad_sec", "p", "q", "r")
         self._x, self._y, self._z = _nodes(fdm, "accelerations/a-pilot-%s-ft_sec2", "x", "y", "z")
-        self._gravity, self._height = _nodes(fdm, "%s", "accelerations/gravity-ft_sec2", "position/h-agl-ft")
+        self._gravity, self._height = _nodes(
+            fdm, "%s", "accelerations/gravity-ft_sec2", "position/h-agl-ft"
+        )
         distance, latitude = _nodes(fdm, "position/%s", "radius-to-vehicle-ft", "lat-gc-rad")
-        self._centrifugal = EARTH_RATE**2 * distance.get_double_value() * cos(latitude.get_double_value()) ** 2  # ft/s^2
+        # ft/s^2
+        self._centrifugal = (
+            EARTH_RATE**2 * distance.get_double_value() * cos(latitude.get_double_value()) ** 2
+        )
         self._propagate = fdm.get_propagate()
         self._q_NB: Quat = IDENTITY
 
     def state(self, time: float) -> VehicleState:
         """The present state, called `time` (s); raises ValueError when an angle is infinite."""
-        psi, theta, phi = self._psi.get_double_value(), self._theta.get_double_value(), self._phi.get_double_value()
+        psi, theta, phi = (
+            self._psi.get_double_value(),
+            self._theta.get_double_value(),
+            self._phi.get_double_value(),
+        )
         if abs(theta) > _NEAR_VERTICAL:
             psi, theta = _heading_and_pitch(self._propagate, phi)
         self._q_NB = continuous(from_euler(psi, theta, phi), self._q_NB)
@@ -52,7 +63,11 @@ class Readings:
             time,
             self._q_NB,
             (self._p.get_double_value(), self._q.get_double_value(), self._r.get_double_value()),
-            (k * self._x.get_double_value(), k * self._y.get_double_value(), k * self._z.get_double_value()),
+            (
+                k * self._x.get_double_value(),
+                k * self._y.get_double_value(),
+                k * self._z.get_double_value(),
+            ),
         )
 
     def height(self) -> float:
@@ -73,7 +88,8 @@ def _heading_and_pitch(propagate: jsbsim.FGPropagate, phi: float) -> tuple[float
     Y(theta) Z(psi): the second is (-sin psi, cos psi, 0) and the third ends in cos theta.
     """
     with catch_warnings():
-        simplefilter("ignore", PendingDeprecationWarning)  # JSBSim hands out numpy's old matrix class
+        # JSBSim hands out numpy's old matrix class
+        simplefilter("ignore", PendingDeprecationWarning)
         first, second, third = propagate.get_Tl2b().tolist()
     c, s = cos(phi), sin(phi)
     psi = atan2(s * third[0] - c * second[0], c * second[1] - s * third[1])

@@ -17,7 +17,8 @@ STANDING_AIRSPEED = 1.0  # m/s; a trim slower than this ...
 STANDING_HEIGHT = 10.0  # m above ground; ... and lower than this settles the aircraft on its gear
 _ALL_ENGINES = -1
 _TURBULENCE = ("atmosphere/turb", "atmosphere/cosine-gust/")
-_SETTLING_RUNS = 2  # runs of zero length until an input shows in the pilot's force, which lags by one
+# runs of zero length until an input shows in the pilot's force, which lags by one
+_SETTLING_RUNS = 2
 
 # field, least, greatest
 _BOUNDS = (
@@ -39,7 +40,9 @@ def initialise(fdm: jsbsim.FGFDMExec) -> None:
     try:
         fdm.run_ic()
     except JSBSIM_ERRORS as error:
-        raise InputError(f"{fdm.get_model_name()}: JSBSim cannot initialise it: {one_line(error)}") from error
+        raise InputError(
+            f"{fdm.get_model_name()}: JSBSim cannot initialise it: {one_line(error)}"
+        ) from error
 
 
 def start_aircraft(fdm: jsbsim.FGFDMExec, flight: AircraftFlight) -> InputPlayer:
@@ -87,7 +90,10 @@ def _check(initial: InitialConditions) -> None:
     for name, least, greatest in _BOUNDS:
         value = getattr(initial, name)
         if not (least <= value <= greatest and abs(value) < inf):
-            raise InputError(f"initial {name} = {value}, allowed: {least:.6g} <= {name} <= {greatest:.6g}, finite")
+            raise InputError(
+                f"initial {name} = {value}, allowed: {least:.6g} <= {name} <= {greatest:.6g},"
+                " finite"
+            )
 
 
 def _set(fdm: jsbsim.FGFDMExec, initial: InitialConditions) -> None:
@@ -122,8 +128,12 @@ def _advice(flight: AircraftFlight, standing: bool, reason: str) -> str:
     initial = flight.initial
     where = f"at altitude_m = {initial.altitude:g}, airspeed_m_s = {initial.airspeed:g}"
     where += f", pitch_deg = {degrees(initial.pitch):g}"
-    at_start = {event.property for event in flight.inputs if event.time == 0.0 and not _is_turbulence(event)}
-    acting = f" (at time 0 these act on the trim: {', '.join(sorted(at_start))})" if at_start else ""
+    at_start = {
+        event.property for event in flight.inputs if event.time == 0.0 and not _is_turbulence(event)
+    }
+    acting = (
+        f" (at time 0 these act on the trim: {', '.join(sorted(at_start))})" if at_start else ""
+    )
     steady = "a start above the ground" if standing else "an altitude and airspeed of steady flight"
     later = f", later inputs{acting}" if acting else ""
     return f"{where}: {reason}; allowed: {steady}{later}, or trim = false"

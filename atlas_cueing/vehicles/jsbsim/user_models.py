@@ -1,4 +1,6 @@
-"""Aircraft of a user's own, in folders as JSBSim has them: `aircraft/NAME/NAME.xml`, `engine`, `systems`.
+"""Aircraft of a user's own, in folders as JSBSim has them.
+
+`aircraft/NAME/NAME.xml`, `engine`, `systems`.
 
 What a model names by `file="..."` is looked for with the model first, then in the user's `engine`
 and `systems`, and last among JSBSim's own. Nothing outside the user's folder is read.
@@ -11,12 +13,14 @@ from ...errors import InputError
 from .library import own_aircraft, suggestion
 
 MAX_FILES = 100  # of one aircraft; the largest of JSBSim's own is made of 24
-MAX_USERS_BYTES = 1 << 20  # of a user's file, which goes along with the log; the largest own script has 11 kB
+# of a user's file, which goes along with the log; the largest own script has 11 kB
+MAX_USERS_BYTES = 1 << 20
 _PREFIX = "./"  # of a name: the user's aircraft, also where JSBSim has one of that name
 _NAME = re.compile(r"[\w-][\w.-]*")
 _REFERENCE = re.compile(rb"""\bfile\s*=\s*(?:"([^"<]*)"|'([^'<]*)')""")
 _PLAIN_REFERENCE = re.compile(r"[\w -][\w .-]*(/[\w -][\w .-]*)*")  # no part begins with a dot
-_BESIDE_MODEL = ("", "Engines/", "engines/", "Systems/", "systems/")  # where JSBSim looks, and a little more
+# where JSBSim looks, and a little more
+_BESIDE_MODEL = ("", "Engines/", "engines/", "Systems/", "systems/")
 SHARED = ("engine", "systems")  # folders beside `aircraft`
 
 
@@ -64,7 +68,9 @@ def user_files(name: str, folder: Path, initialize: str = "") -> dict[str, Path]
             continue
         found[relative] = path
         if len(found) > MAX_FILES:
-            raise InputError(f"{folder / home}: the aircraft names too many files, allowed: at most {MAX_FILES}")
+            raise InputError(
+                f"{folder / home}: the aircraft names too many files, allowed: at most {MAX_FILES}"
+            )
         for reference in _references(read_users(path)):
             wanted += [f"{home}/{place}{reference}" for place in _BESIDE_MODEL]
             wanted += [f"{place}/{reference}" for place in SHARED]
@@ -81,12 +87,16 @@ def within(folder: Path, relative: str) -> Path | None:
     try:
         path = (folder / relative).resolve()
         return path if path.is_file() and path.is_relative_to(folder.resolve()) else None
-    except (OSError, ValueError, RuntimeError):  # ValueError: a NUL in the name; RuntimeError: links in a circle
+    except (OSError, ValueError, RuntimeError):
+        # ValueError: a NUL in the name; RuntimeError: links in a circle
         return None
 
 
 def read_users(path: Path) -> bytes:
-    """A user's file as it is. Raises InputError when it cannot be read or is larger than MAX_USERS_BYTES."""
+    """A user's file as it is.
+
+    Raises InputError when it cannot be read or is larger than MAX_USERS_BYTES.
+    """
     try:
         with path.open("rb") as file:
             content = file.read(MAX_USERS_BYTES + 1)
@@ -99,5 +109,12 @@ def read_users(path: Path) -> bytes:
 
 def _references(content: bytes) -> list[str]:
     """Names of files, with their ending, that lead nowhere else."""
-    named = [(double or single).decode("utf-8", "replace").strip() for double, single in _REFERENCE.findall(content)]
-    return [f"{name.removesuffix('.xml')}.xml" for name in dict.fromkeys(named) if is_plain_reference(name)]
+    named = [
+        (double or single).decode("utf-8", "replace").strip()
+        for double, single in _REFERENCE.findall(content)
+    ]
+    return [
+        f"{name.removesuffix('.xml')}.xml"
+        for name in dict.fromkeys(named)
+        if is_plain_reference(name)
+    ]

@@ -46,15 +46,21 @@ def planned(
     plan = preview(states, parameters, limits, head, dt)
     cues = [plan.step(state) for state in states]
     q, w, p, v, a = (
-        np.array([getattr(cue, name) for cue in cues]) for name in ("q_WS", "w_WS_W", "p_WS_W", "v_WS_W", "a_WS_W")
+        np.array([getattr(cue, name) for cue in cues])
+        for name in ("q_WS", "w_WS_W", "p_WS_W", "v_WS_W", "a_WS_W")
     )
     alpha = np.gradient(w, dt, axis=0) if len(w) > 1 else np.zeros_like(w)
     f, rate = felt(q, w, alpha, a, head)
-    wanted_f, wanted_w = np.array([state.f_B for state in states]), np.array([state.w_NB_B for state in states])
+    wanted_f, wanted_w = (
+        np.array([state.f_B for state in states]),
+        np.array([state.w_NB_B for state in states]),
+    )
     return Planned(cues, q, w, p, v, a, f - wanted_f, rate - wanted_w)
 
 
-def cost(force_error: np.ndarray, rate_error: np.ndarray, parameters: PreviewParameters = DEFAULT) -> float:
+def cost(
+    force_error: np.ndarray, rate_error: np.ndarray, parameters: PreviewParameters = DEFAULT
+) -> float:
     """As evaluation has it, derived again."""
     force, rate = (np.mean(np.sum(x**2, axis=1)) for x in (force_error, rate_error))
     return float(np.sqrt(force / parameters.force_unit**2 + rate / parameters.rate_unit**2))
@@ -64,10 +70,15 @@ def flying(
     seconds: float, force: Callable[[float], Vec3], rate: Callable[[float], Vec3] = lambda _: ZERO
 ) -> list[VehicleState]:
     """A vehicle with these forces (m/s^2) and body rates (rad/s) of time, whatever its attitude."""
-    return [VehicleState(i * DT, (1.0, 0.0, 0.0, 0.0), rate(i * DT), force(i * DT)) for i in range(round(seconds / DT) + 1)]
+    return [
+        VehicleState(i * DT, (1.0, 0.0, 0.0, 0.0), rate(i * DT), force(i * DT))
+        for i in range(round(seconds / DT) + 1)
+    ]
 
 
-def tilting(seconds: float = 20.0, angle: float = radians(20.0), start: Quat = EAST_ISH) -> list[VehicleState]:
+def tilting(
+    seconds: float = 20.0, angle: float = radians(20.0), start: Quat = EAST_ISH
+) -> list[VehicleState]:
     """The force swings over to one side, as fast as gravity could never be turned at 3 deg/s, and stays there."""
 
     def force(t: float) -> Vec3:
@@ -85,6 +96,8 @@ def rolling(seconds: float = 12.0, rate: float = 1.0) -> list[VehicleState]:
 
     states, angle = [], 0.0
     for i in range(round(seconds / DT) + 1):
-        states.append(VehicleState(i * DT, exp((angle, 0.0, 0.0)), (roll(i * DT), 0.0, 0.0), (0.0, 0.0, -G)))
+        states.append(
+            VehicleState(i * DT, exp((angle, 0.0, 0.0)), (roll(i * DT), 0.0, 0.0), (0.0, 0.0, -G))
+        )
         angle += 0.5 * DT * (roll(i * DT) + roll((i + 1) * DT))
     return states

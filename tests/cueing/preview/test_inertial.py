@@ -34,7 +34,8 @@ def test_a_constant_rate_turns_about_its_axis() -> None:
     expected = Rotation.from_rotvec(np.outer(seen.time, flip(w)))
     assert np.max((turned.inv() * expected).magnitude()) < 1e-9
     assert np.allclose(seen.w_A, flip(w))
-    assert np.ptp(seen.f_A, axis=0) == pytest.approx([0.0, 0.0, 0.0], abs=1e-9)  # gravity does not turn with the body
+    # gravity does not turn with the body
+    assert np.ptp(seen.f_A, axis=0) == pytest.approx([0.0, 0.0, 0.0], abs=1e-9)
 
 
 def test_turning_drops_out_of_the_vehicle_s_own_attitude() -> None:

@@ -40,12 +40,22 @@ from .flights import (
 
 def check(found: Planned) -> None:
     """Limits, rest at both ends, and each column the derivative of the one before."""
-    for values, limit in ((found.p, LIMITS.travel), (found.v, LIMITS.speed), (found.a, LIMITS.acceleration)):
+    for values, limit in (
+        (found.p, LIMITS.travel),
+        (found.v, LIMITS.speed),
+        (found.a, LIMITS.acceleration),
+    ):
         assert np.all(np.abs(values) <= np.array(limit))
     assert np.all(np.abs(np.diff(found.a, axis=0)) <= np.array(LIMITS.jerk) * DT)
-    assert np.allclose([found.p[0], found.v[0], found.a[0], found.v[-1], found.a[-1]], 0.0, atol=1e-6)
-    assert np.allclose(np.diff(found.p, axis=0), 0.5 * DT * (found.v[1:] + found.v[:-1]), atol=DT**3 * 60.0)
-    assert np.allclose(np.diff(found.v, axis=0), 0.5 * DT * (found.a[1:] + found.a[:-1]), atol=DT**2 * 60.0)
+    assert np.allclose(
+        [found.p[0], found.v[0], found.a[0], found.v[-1], found.a[-1]], 0.0, atol=1e-6
+    )
+    assert np.allclose(
+        np.diff(found.p, axis=0), 0.5 * DT * (found.v[1:] + found.v[:-1]), atol=DT**3 * 60.0
+    )
+    assert np.allclose(
+        np.diff(found.v, axis=0), 0.5 * DT * (found.a[1:] + found.a[:-1]), atol=DT**2 * 60.0
+    )
     assert np.allclose(np.linalg.norm(found.q, axis=1), 1.0)
     assert np.all(np.sum(found.q[1:] * found.q[:-1], axis=1) > 0.0)
 
@@ -57,7 +67,9 @@ def turned_away(found: Planned) -> float:
     worst = 0.0
     for i, step in enumerate(steps, start=1):
         q = step * q
-        worst = max(worst, float((q.inv() * Rotation.from_quat(np.roll(found.q[i], -1))).magnitude()))
+        worst = max(
+            worst, float((q.inv() * Rotation.from_quat(np.roll(found.q[i], -1))).magnitude())
+        )
     return worst
 
 
@@ -66,7 +78,13 @@ def lived(method: MethodParameters, states: list[VehicleState], head: Vec3 = ZER
     cueing = build_cueing(method, StageParameters(), LIMITS, head, DT)
     cues: list[Cue] = [cueing.step(state) for state in states]
     w = np.array([cue.w_WS_W for cue in cues])
-    f, rate = felt([cue.q_WS for cue in cues], w, np.gradient(w, DT, axis=0), [cue.a_WS_W for cue in cues], head)
+    f, rate = felt(
+        [cue.q_WS for cue in cues],
+        w,
+        np.gradient(w, DT, axis=0),
+        [cue.a_WS_W for cue in cues],
+        head,
+    )
     return cost(f - [state.f_B for state in states], rate - [state.w_NB_B for state in states])
 
 
@@ -81,7 +99,9 @@ FLIGHTS = {
 
 @pytest.mark.parametrize("name", FLIGHTS)
 @pytest.mark.parametrize("head", [ZERO, HEAD], ids=["centre", "head"])
-def test_it_keeps_its_limits_and_beats_those_who_do_not_know_the_future(name: str, head: Vec3) -> None:
+def test_it_keeps_its_limits_and_beats_those_who_do_not_know_the_future(
+    name: str, head: Vec3
+) -> None:
     states = FLIGHTS[name]
     found = planned(states, QUICK, head=head)
     check(found)
@@ -106,7 +126,12 @@ def test_as_fast_as_method_force_it_follows_the_force() -> None:
 @settings(max_examples=8, deadline=None)
 def test_any_flight_gets_a_plan_inside_its_limits(forces: list[Vec3], rates: list[Vec3]) -> None:
     """Forces and rates that jump, through zero too, or a clear error."""
-    states = [VehicleState(i * DT, (1.0, 0.0, 0.0, 0.0), rates[i // 40 % 6], forces[i // 40 % len(forces)]) for i in range(240)]
+    states = [
+        VehicleState(
+            i * DT, (1.0, 0.0, 0.0, 0.0), rates[i // 40 % 6], forces[i // 40 % len(forces)]
+        )
+        for i in range(240)
+    ]
     found = planned(states, QUICK)
     check(found)
     assert np.max(np.linalg.norm(found.rate_error, axis=1)) <= QUICK.rate
@@ -126,7 +151,9 @@ def test_at_rest_it_asks_for_nothing() -> None:
 
 def test_the_cabin_begins_with_the_vehicle_s_heading_as_its_own() -> None:
     """And turned to the first force as `blend` is."""
-    states = list(standing(from_euler(2.0, 0.3, 0.0), (G * np.sin(0.3), 0.0, -G * np.cos(0.3)), DT, 100))
+    states = list(
+        standing(from_euler(2.0, 0.3, 0.0), (G * np.sin(0.3), 0.0, -G * np.cos(0.3)), DT, 100)
+    )
     found = planned(states)
     expected = build_cueing(BlendParameters(), StageParameters(), LIMITS, ZERO, DT).step(states[0])
     assert found.cues[0].q_WS == pytest.approx(expected.q_WS, abs=1e-6)
@@ -135,12 +162,16 @@ def test_the_cabin_begins_with_the_vehicle_s_heading_as_its_own() -> None:
 def test_a_jump_of_the_attitude_is_not_chased() -> None:
     """A trim in mid-run: rates and forces are what the plan goes by."""
     states = list(standing(from_euler(0.0, 0.0, 0.0), (0.0, 0.0, -G), DT, 300))
-    jumped = states[:150] + [replace(state, q_NB=from_euler(1.0, 0.5, -2.0)) for state in states[150:]]
+    jumped = states[:150] + [
+        replace(state, q_NB=from_euler(1.0, 0.5, -2.0)) for state in states[150:]
+    ]
     assert [cue.q_WS for cue in planned(jumped).cues] == [cue.q_WS for cue in planned(states).cues]
 
 
 def test_the_same_flight_gets_the_same_plan_to_the_last_bit() -> None:
-    assert planned(FLIGHTS["manoeuvring"], QUICK).cues == planned(FLIGHTS["manoeuvring"], QUICK).cues
+    assert (
+        planned(FLIGHTS["manoeuvring"], QUICK).cues == planned(FLIGHTS["manoeuvring"], QUICK).cues
+    )
 
 
 @pytest.mark.parametrize("bad", [float("inf"), float("nan"), -1e7, 1e308])
@@ -148,7 +179,9 @@ def test_forces_that_nothing_has_get_no_plan(bad: float) -> None:
     with pytest.raises(InputError, match=r"no plan .* at 0\.5 s force"):
         planned(flying(1.0, lambda t: (0.0, 0.0, -G if t < 0.49 else bad)))
     with pytest.raises(InputError, match=r"no plan .* at 0\.5 s force"):
-        planned(flying(1.0, lambda _: (0.0, 0.0, -G), lambda t: (0.0, 0.0, 0.0 if t < 0.49 else bad)))
+        planned(
+            flying(1.0, lambda _: (0.0, 0.0, -G), lambda t: (0.0, 0.0, 0.0 if t < 0.49 else bad))
+        )
 
 
 def test_the_head_is_where_the_force_is_felt() -> None:

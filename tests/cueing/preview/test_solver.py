@@ -40,7 +40,9 @@ def test_bounds_on_a_part_of_the_unknowns_and_two_at_once() -> None:
     inner, outer = Bounds(), Bounds()
     inner.within(csc_array(np.ones((1, 1))), 1.0)
     outer.within(ONE, 2.0)
-    assert nearest([5.0, 5.0, 5.0], outer + inner.among(1, 3)) == pytest.approx([2.0, 1.0, 2.0], abs=1e-6)
+    assert nearest([5.0, 5.0, 5.0], outer + inner.among(1, 3)) == pytest.approx(
+        [2.0, 1.0, 2.0], abs=1e-6
+    )
 
 
 def test_the_size_of_the_cost_does_not_matter() -> None:

@@ -43,14 +43,21 @@ def test_differences_of_control_points_bound_the_curve(values: list[float]) -> N
     spline, points = Spline(101, 0.01, 20.0), np.array(values)
     matrices = (spline.value, spline.slope, spline.curvature)
     for order, matrix in enumerate(matrices):
-        assert np.max(np.abs(matrix @ points)) <= np.max(np.abs(spline.difference(order) @ points)) * (1.0 + 1e-12) + 1e-12
+        assert (
+            np.max(np.abs(matrix @ points))
+            <= np.max(np.abs(spline.difference(order) @ points)) * (1.0 + 1e-12) + 1e-12
+        )
     jerk = np.diff(spline.curvature @ points) / 0.01
-    assert np.max(np.abs(jerk)) <= np.max(np.abs(spline.difference(3) @ points)) * (1.0 + 1e-9) + 1e-6
+    assert (
+        np.max(np.abs(jerk)) <= np.max(np.abs(spline.difference(3) @ points)) * (1.0 + 1e-9) + 1e-6
+    )
 
 
 def test_the_second_derivative_runs_straight_between_second_differences() -> None:
     spline, points = made()
-    assert np.allclose(spline.straight() @ (spline.difference(2) @ points), spline.curvature @ points, atol=1e-9)
+    assert np.allclose(
+        spline.straight() @ (spline.difference(2) @ points), spline.curvature @ points, atol=1e-9
+    )
 
 
 def test_steps() -> None:
@@ -60,5 +67,9 @@ def test_steps() -> None:
 def test_everything_is_sparse() -> None:
     """An hour costs sixty times what a minute costs."""
     short, long = Spline(7201, 1 / 120, 20.0), Spline(60 * 7200 + 1, 1 / 120, 20.0)
-    for one, other in ((short.value, long.value), (short.slope, long.slope), (short.difference(3), long.difference(3))):
+    for one, other in (
+        (short.value, long.value),
+        (short.slope, long.slope),
+        (short.difference(3), long.difference(3)),
+    ):
         assert other.nnz == pytest.approx(60 * one.nnz, rel=1e-2)

@@ -20,7 +20,12 @@ TIME = np.arange(501) * DT
 def planned(d_W: Array) -> tuple[Array, Array, Array, Array]:
     spline = Spline(len(d_W), DT, 10.0)
     points = rails(spline, d_W, LIMITS)
-    return spline.value @ points, spline.slope @ points, spline.curvature @ points, spline.difference(3) @ points
+    return (
+        spline.value @ points,
+        spline.slope @ points,
+        spline.curvature @ points,
+        spline.difference(3) @ points,
+    )
 
 
 def demand(x: Array) -> Array:
@@ -48,7 +53,10 @@ def test_a_demand_that_fits_is_given() -> None:
 
 
 def test_a_lasting_demand_is_given_for_nothing() -> None:
-    """From rest to rest there is no lasting acceleration: the stage is no better than standing still, and no worse."""
+    """From rest to rest there is no lasting acceleration.
+
+    The stage is no better than standing still, and no worse.
+    """
     d = np.full_like(TIME, 0.7)
     _, _, a, _ = planned(demand(d))
     assert np.mean((a[:, 0] - d) ** 2) <= np.mean(d**2) + 1e-9
@@ -61,7 +69,8 @@ def test_limits_hold_for_any_demand(seed: int, size: float) -> None:
     slow = np.repeat(random.normal(size=51), 10)[:501] * size
     p, v, a, jerk = planned(demand(slow))
     check(p, v, a, jerk)
-    assert np.mean((a[:, 0] - slow) ** 2) <= np.mean(slow**2) + 1e-6 * size**2  # never worse than standing still
+    # never worse than standing still
+    assert np.mean((a[:, 0] - slow) ** 2) <= np.mean(slow**2) + 1e-6 * size**2
 
 
 @pytest.mark.parametrize("ticks", [1, 2, 3, 6, 11, 13])

@@ -28,22 +28,30 @@ def planned(f_A: np.ndarray, parameters: PreviewParameters = SLOW) -> Up:
     return sampled(spline, UpPlanner(spline, parameters).plan(f_A))
 
 
-def cost(direction: np.ndarray, rate: np.ndarray, f_A: np.ndarray, parameters: PreviewParameters = SLOW) -> float:
+def cost(
+    direction: np.ndarray, rate: np.ndarray, f_A: np.ndarray, parameters: PreviewParameters = SLOW
+) -> float:
     force = np.mean(np.sum((f_A - G * direction) ** 2, axis=1)) / parameters.force_unit**2
     return float(force + np.mean(np.sum(rate**2, axis=1)) / parameters.rate_unit**2)
 
 
 def swinging(parameters: PreviewParameters = SLOW) -> tuple[np.ndarray, Up]:
-    f_A = about_x(radians(12.0) * np.sin(0.8 * TIME) + radians(30.0) * np.clip((TIME - 9.0) / 3.0, 0.0, 1.0))
+    f_A = about_x(
+        radians(12.0) * np.sin(0.8 * TIME) + radians(30.0) * np.clip((TIME - 9.0) / 3.0, 0.0, 1.0)
+    )
     return f_A, planned(f_A, parameters)
 
 
 def check(up: Up, parameters: PreviewParameters = SLOW) -> None:
     assert np.allclose(np.linalg.norm(up.direction, axis=1), 1.0)
-    assert np.allclose(np.sum(up.direction * up.rate, axis=1), 0.0, atol=1e-9)  # no turn about the force
+    # no turn about the force
+    assert np.allclose(np.sum(up.direction * up.rate, axis=1), 0.0, atol=1e-9)
     assert np.max(np.linalg.norm(up.rate, axis=1)) <= parameters.rate
     change = np.diff(up.rate, axis=0) / DT
-    assert np.max(np.linalg.norm(change, axis=1)) <= parameters.acceleration * 1.01 + parameters.rate**2
+    assert (
+        np.max(np.linalg.norm(change, axis=1))
+        <= parameters.acceleration * 1.01 + parameters.rate**2
+    )
 
 
 def test_a_force_that_stays_needs_no_turn() -> None:
@@ -60,7 +68,11 @@ def test_bounds_are_kept_and_used() -> None:
 
 def test_the_rate_is_that_of_the_direction() -> None:
     _, up = swinging()
-    assert np.allclose(np.cross(up.direction, up.rate)[1:-1], np.gradient(up.direction, DT, axis=0)[1:-1], atol=5e-4)
+    assert np.allclose(
+        np.cross(up.direction, up.rate)[1:-1],
+        np.gradient(up.direction, DT, axis=0)[1:-1],
+        atol=5e-4,
+    )
 
 
 def test_it_is_at_rest_when_the_flight_begins() -> None:
@@ -83,8 +95,14 @@ def test_no_neighbour_is_better() -> None:
     spline = Spline(len(f_A), DT, SLOW.planning_rate)
     planner = UpPlanner(spline, SLOW)
     for _ in range(5):
-        frequency, phase, size = random.uniform(0.1, 1.0), random.uniform(0.0, 6.0), random.uniform(0.05, 0.4)
-        other = sampled(spline, planner.plan(f_A + about_x(size * np.sin(frequency * TIME + phase))))
+        frequency, phase, size = (
+            random.uniform(0.1, 1.0),
+            random.uniform(0.0, 6.0),
+            random.uniform(0.05, 0.4),
+        )
+        other = sampled(
+            spline, planner.plan(f_A + about_x(size * np.sin(frequency * TIME + phase)))
+        )
         check(other)
         assert cost(other.direction, other.rate, f_A) > best
     followed = planned(f_A, replace(SLOW, rate_unit=10.0))
@@ -102,7 +120,9 @@ def test_the_plan_begins_before_the_force_does() -> None:
 
 @pytest.mark.parametrize("parameters", [SLOW, PreviewParameters(rate=pi, smoothing=0.1)])
 @pytest.mark.parametrize("seconds", [0.04, 2.0])
-def test_a_force_that_turns_over_is_followed_round_the_sphere(parameters: PreviewParameters, seconds: float) -> None:
+def test_a_force_that_turns_over_is_followed_round_the_sphere(
+    parameters: PreviewParameters, seconds: float
+) -> None:
     """Straight over, where the way through the centre would be the shortest and no side is the better one."""
     f_A = np.zeros((len(TIME), 3))
     f_A[:, 2] = G * np.clip((10.0 - TIME) / seconds, -1.0, 1.0)

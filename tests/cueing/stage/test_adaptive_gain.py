@@ -10,7 +10,13 @@ from atlas_cueing.cueing.stage.adaptive_gain import AdaptiveGain
 DT = 0.01
 
 
-def after(demand: np.ndarray, imagined: np.ndarray, memory: float = 15.0, first: float = 0.2, doubt: float = 1e-6) -> float:
+def after(
+    demand: np.ndarray,
+    imagined: np.ndarray,
+    memory: float = 15.0,
+    first: float = 0.2,
+    doubt: float = 1e-6,
+) -> float:
     useful = AdaptiveGain(DT, memory, first, doubt)
     for d, a in zip(demand.tolist(), imagined.tolist(), strict=True):
         useful.update(d, a)
@@ -56,7 +62,10 @@ def test_it_begins_with_the_first_share_and_leaves_it_as_fast_as_the_doubt_allow
     assert shares[2] == pytest.approx(1.0, abs=1e-3)
 
 
-@given(st.lists(st.tuples(st.floats(-1e6, 1e6), st.floats(-100.0, 100.0)), max_size=30), st.floats(0.0, 1.0))
+@given(
+    st.lists(st.tuples(st.floats(-1e6, 1e6), st.floats(-100.0, 100.0)), max_size=30),
+    st.floats(0.0, 1.0),
+)
 def test_it_is_a_share_whatever_comes(pairs: list[tuple[float, float]], first: float) -> None:
     useful = AdaptiveGain(DT, 15.0, first, 0.01)
     for demand, imagined in pairs:

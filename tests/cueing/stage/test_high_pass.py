@@ -18,7 +18,9 @@ CHOICES = [(1.5, 0.2, 5.0), (0.8, 0.1, 2.0), (4.0, 0.5, 5.0)]  # onset, recentre
 def one_axis(choice: tuple[float, float, float]) -> StageParameters:
     """The same parameters on every axis."""
     onset, recentre, bandwidth = choice
-    return StageParameters(onset=(onset,) * 3, recentre=(recentre,) * 3, bandwidth=bandwidth, horizon=None)
+    return StageParameters(
+        onset=(onset,) * 3, recentre=(recentre,) * 3, bandwidth=bandwidth, horizon=None
+    )
 
 
 def impulse(dt: float, choice: tuple[float, float, float], seconds: float) -> np.ndarray:
@@ -28,10 +30,19 @@ def impulse(dt: float, choice: tuple[float, float, float], seconds: float) -> np
     return np.array([onset.step(float(i == 0)) for i in range(int(seconds / dt))])
 
 
-@pytest.mark.parametrize(("dt", "choice"), [(1e-3, CHOICES[2]), *((dt, each) for dt in DTS[1:] for each in CHOICES)])
-@pytest.mark.parametrize("limit", [(1.0, 1.5, 6.0), (0.1, 10.0, 10.0), (10.0, 0.2, 10.0), (10.0, 10.0, 0.3)])
-def test_the_worst_demand_stays_inside(dt: float, choice: tuple[float, float, float], limit: Vec3) -> None:
-    """Full demand whose sign is that of the impulse response run backwards: there is no worse for p, for v or for a."""
+@pytest.mark.parametrize(
+    ("dt", "choice"), [(1e-3, CHOICES[2]), *((dt, each) for dt in DTS[1:] for each in CHOICES)]
+)
+@pytest.mark.parametrize(
+    "limit", [(1.0, 1.5, 6.0), (0.1, 10.0, 10.0), (10.0, 0.2, 10.0), (10.0, 10.0, 0.3)]
+)
+def test_the_worst_demand_stays_inside(
+    dt: float, choice: tuple[float, float, float], limit: Vec3
+) -> None:
+    """Full demand whose sign is that of the impulse response run backwards.
+
+    There is no worse for p, for v or for a.
+    """
     response = impulse(dt, choice, 4.0 / choice[1])
     limits = StageLimits(*((x, x, x) for x in limit), (1e3,) * 3)
     used = []
@@ -43,7 +54,8 @@ def test_the_worst_demand_stays_inside(dt: float, choice: tuple[float, float, fl
             assert np.all(np.abs(state) <= limit)
         used.append(abs(state[which]) / limit[which])
     assert 0.3 < max(used) <= 1.0, (
-        "one of the limits should be used by its own worst demand; nearly all needs a lasting one before"
+        "one of the limits should be used by its own worst demand; nearly all needs a lasting one"
+        " before"
     )
 
 
@@ -55,11 +67,22 @@ def ask(cueing: StageCueing, demand: float) -> Vec3:
 
 @pytest.mark.parametrize(
     "choice",
-    [(0.1, 5.0, 5.0), (0.8, 10.0, 5.0), (0.3, 1.0, 5.0), (1.5, 0.2, 0.05), (10.0, 0.0, 5.0), (1.0, 0.0, 5.0), (0.2, 0.2, 0.5)],
+    [
+        (0.1, 5.0, 5.0),
+        (0.8, 10.0, 5.0),
+        (0.3, 1.0, 5.0),
+        (1.5, 0.2, 0.05),
+        (10.0, 0.0, 5.0),
+        (1.0, 0.0, 5.0),
+        (0.2, 0.2, 0.5),
+    ],
     ids=str,
 )
 def test_the_travel_holds_whichever_pole_is_the_slowest(choice: tuple[float, float, float]) -> None:
-    """A push for ever, then back, from rest in the centre: of the onset, of the return, of the low-pass on the demand."""
+    """A push for ever, then back, from rest in the centre.
+
+    Of the onset, of the return, of the low-pass on the demand.
+    """
     dt, cueing = 1.0 / 50.0, StageCueing(1.0 / 50.0, one_axis(choice), LIMITS, ZERO)
     ask(cueing, 0.0)
     path = [ask(cueing, sign * 1e6) for sign in (1.0, -1.0) for _ in range(int(60.0 / dt))]
@@ -67,12 +90,18 @@ def test_the_travel_holds_whichever_pole_is_the_slowest(choice: tuple[float, flo
 
 
 @pytest.mark.parametrize("start", [1e6, 1.0, -50.0])
-@pytest.mark.parametrize("parameters", [one_axis((1.5, 0.2, 5.0)), one_axis((1.5, 0.0, 5.0)), CLASSICAL_STAGE], ids=str)
-def test_the_travel_holds_whatever_demand_was_there_at_the_start(parameters: StageParameters, start: float) -> None:
+@pytest.mark.parametrize(
+    "parameters", [one_axis((1.5, 0.2, 5.0)), one_axis((1.5, 0.0, 5.0)), CLASSICAL_STAGE], ids=str
+)
+def test_the_travel_holds_whatever_demand_was_there_at_the_start(
+    parameters: StageParameters, start: float
+) -> None:
     """It counts as lasting; without a return to the centre it does so for ever, and the opposite demand is twice as far off."""
     dt, cueing = 1.0 / 50.0, StageCueing(1.0 / 50.0, parameters, LIMITS, ZERO)
     ask(cueing, start)
-    path = [ask(cueing, sign * start * 1e6) for sign in (-1.0, 1.0, -1.0) for _ in range(int(20.0 / dt))]
+    path = [
+        ask(cueing, sign * start * 1e6) for sign in (-1.0, 1.0, -1.0) for _ in range(int(20.0 / dt))
+    ]
     assert np.max(np.abs(path), axis=0)[0] <= min(1.0, parameters.travel[0])
     assert np.all(np.max(np.abs(path), axis=0)[1:] <= (1.5, 6.0))
 
@@ -81,10 +110,19 @@ def test_onset_and_return_are_the_axis_s_own() -> None:
     """Three axes, three filters: each is that of its own numbers, with the others' changed."""
     whole = StageParameters(onset=(1.0, 2.0, 3.0), recentre=(0.3, 0.1, 0.0), horizon=None)
     states = []
-    for parameters in (whole, one_axis((1.0, 0.3, 5.0)), one_axis((2.0, 0.1, 5.0)), one_axis((3.0, 0.0, 5.0))):
+    for parameters in (
+        whole,
+        one_axis((1.0, 0.3, 5.0)),
+        one_axis((2.0, 0.1, 5.0)),
+        one_axis((3.0, 0.0, 5.0)),
+    ):
         cueing = StageCueing(0.01, parameters, HUGE, ZERO)
         cueing.step(IDENTITY, ZERO, (0.0, 0.0, -STANDARD_GRAVITY))
-        states.append([cueing.step(IDENTITY, ZERO, (0.1, -0.1, -STANDARD_GRAVITY - 0.1)) for _ in range(300)][-1])
+        states.append(
+            [cueing.step(IDENTITY, ZERO, (0.1, -0.1, -STANDARD_GRAVITY - 0.1)) for _ in range(300)][
+                -1
+            ]
+        )
     mixed, *single = states
     for axis in range(3):
         assert [x[axis] for x in mixed] == pytest.approx([x[axis] for x in single[axis]], abs=1e-12)
@@ -107,7 +145,10 @@ def test_the_bound_is_that_of_the_filter_s_l1_norms(onset: float) -> None:
 
 
 def test_a_small_onset_is_given_whole_and_a_lasting_one_comes_back_unfelt() -> None:
-    """Acceleration at once as demanded; when braking is over, less than 0.063 m/s^2, for ever, and back to the centre."""
+    """Acceleration at once as demanded.
+
+    When braking is over, less than 0.063 m/s^2, for ever, and back to the centre.
+    """
     dt, demand = 1.0 / 120.0, 0.3
     for size in (demand, 1e6):
         cueing, a = StageCueing(dt, one_axis((2.0, 0.2, 5.0)), LIMITS, ZERO), []
@@ -124,7 +165,10 @@ def test_a_small_onset_is_given_whole_and_a_lasting_one_comes_back_unfelt() -> N
 
 
 def test_the_fleeting_part_is_the_limited_demand_without_what_lasts() -> None:
-    """After a step of the demand it decays with the return to the centre; a huge one is cut down to the bound first."""
+    """After a step of the demand it decays with the return to the centre.
+
+    A huge one is cut down to the bound first.
+    """
     dt, recentre = 0.01, 0.5
     for size, most in ((0.1, 0.1), (1e9, 2.0)):
         onset = HighPass(dt, 1.0, recentre, 50.0, 2.0)

@@ -22,7 +22,9 @@ EAGER = replace(DEFAULT, first_share=1.0, doubt=1e12, excess=100.0)
 """Moves for the whole demand, whatever comes of it, and well into the limits."""
 
 
-def axis(dt: float = DT, limits: tuple[float, float, float, float] = LIMITS, **changes: Any) -> HorizonAxis:
+def axis(
+    dt: float = DT, limits: tuple[float, float, float, float] = LIMITS, **changes: Any
+) -> HorizonAxis:
     return HorizonAxis(dt, 0.7, 0.2, 5.0, limits, replace(EAGER, **changes), 0)
 
 
@@ -48,7 +50,10 @@ def wild(seed: int, ticks: int) -> np.ndarray:
 
 
 def between(path: np.ndarray, dt: float) -> np.ndarray:
-    """p, v, a (n, 3) at nine instants of each tick, the jerk being constant over it; and that its ends fit."""
+    """p, v, a (n, 3) at nine instants of each tick, the jerk being constant over it.
+
+    And that its ends fit.
+    """
     p, v, a = path[:-1, :, None].transpose(1, 0, 2)
     jerk = np.diff(path[:, 2])[:, None] / dt
     t = np.linspace(0.0, dt, 9)
@@ -58,7 +63,9 @@ def between(path: np.ndarray, dt: float) -> np.ndarray:
     return np.stack([x.ravel() for x in inside], axis=1)
 
 
-@pytest.mark.parametrize(("dt", "limits"), [(DT, LIMITS), (DT, SMALL), (1e-3, LIMITS), (0.05, LIMITS)])
+@pytest.mark.parametrize(
+    ("dt", "limits"), [(DT, LIMITS), (DT, SMALL), (1e-3, LIMITS), (0.05, LIMITS)]
+)
 def test_all_limits_hold_between_ticks_too_and_no_plan_is_missing(
     dt: float, limits: tuple[float, float, float, float], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -83,7 +90,9 @@ def test_all_limits_hold_between_ticks_too_and_no_plan_is_missing(
 
 
 @pytest.mark.parametrize("ticks", [1, 37, 160, 1001])
-def test_without_new_plans_it_goes_on_to_a_standstill_inside_the_limits(ticks: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_new_plans_it_goes_on_to_a_standstill_inside_the_limits(
+    ticks: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The solver fails from some tick on, under full demand; afterwards it is back."""
     moved, demand = axis(), wild(5, 1400)
     path = fly(moved, demand[:ticks])
@@ -99,7 +108,9 @@ def test_without_new_plans_it_goes_on_to_a_standstill_inside_the_limits(ticks: i
     assert np.all(np.max(np.abs(back), axis=0) <= LIMITS[:3])
 
 
-def test_one_failure_now_and_then_goes_unnoticed_but_for_the_plan_s_age(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_one_failure_now_and_then_goes_unnoticed_but_for_the_plan_s_age(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     """Every third plan missing: a plan then begins in the middle of the one before, still inside all limits."""
     moved, calls, found = axis(), 0, 0
     solve = moved.problem.solve
@@ -136,7 +147,10 @@ def ratio(demand: np.ndarray, parameters: HorizonParameters = DEFAULT) -> float:
 
 
 def test_onsets_are_felt() -> None:
-    """Pushes of half a second to and fro, each minute a few: most of it is given; a single push, part of it."""
+    """Pushes of half a second to and fro, each minute a few: most of it is given.
+
+    A single push, part of it.
+    """
     t = np.arange(0.0, 60.0, DT)
     swaying = np.sin(2.0 * np.pi * t / 2.0)
     assert ratio(swaying) < 0.6
@@ -174,11 +188,20 @@ def test_plans_come_at_the_rate_asked_for_where_ticks_allow_it(dt: float, rate: 
 
 
 def test_common_rates() -> None:
-    assert [planning_ticks(1.0 / hz, 50.0) for hz in (20, 50, 100, 120, 500, 1000)] == [1, 1, 2, 2, 10, 20]
+    assert [planning_ticks(1.0 / hz, 50.0) for hz in (20, 50, 100, 120, 500, 1000)] == [
+        1,
+        1,
+        2,
+        2,
+        10,
+        20,
+    ]
 
 
 @given(st.integers(1, 50), st.floats(1.0, 1e5), st.integers(2, 30))
-def test_blocks_are_whole_planning_periods_of_about_the_horizon(period: int, horizon: float, blocks: int) -> None:
+def test_blocks_are_whole_planning_periods_of_about_the_horizon(
+    period: int, horizon: float, blocks: int
+) -> None:
     ticks = block_ticks(period, horizon, blocks)
     assert len(ticks) == blocks
     assert ticks[0] == period or horizon / period > 1.6**blocks
@@ -200,7 +223,9 @@ def test_a_late_start_shifts_the_plans(monkeypatch: pytest.MonkeyPatch) -> None:
     for delay in (0, 1, 2, 5):
         moved, ticks = HorizonAxis(1e-3, 0.7, 0.2, 5.0, LIMITS, EAGER, delay), []
         for tick in range(100):
-            monkeypatch.setattr(moved, "_plan", lambda _, tick=tick, ticks=ticks: ticks.append(tick))
+            monkeypatch.setattr(
+                moved, "_plan", lambda _, tick=tick, ticks=ticks: ticks.append(tick)
+            )
             moved.step(1.0)
         assert set(np.diff(ticks)) == {20}
         begun.append(ticks[0])

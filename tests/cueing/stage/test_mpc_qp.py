@@ -53,7 +53,11 @@ def controls(state: tuple[float, ...], jerks: np.ndarray) -> np.ndarray:
     used = list(jerks / LIMITS[3])
     for k, (_, (p, v, a)) in enumerate(simulate(state, jerks)):
         speeds, places = bernstein(v, 2), bernstein(p, 3)
-        used += [a[-1] / LIMITS[2], *(speeds[1 if k else 2 :] / LIMITS[1]), *(places[1 if k else 3 :] / LIMITS[0])]
+        used += [
+            a[-1] / LIMITS[2],
+            *(speeds[1 if k else 2 :] / LIMITS[1]),
+            *(places[1 if k else 3 :] / LIMITS[0]),
+        ]
     return np.array(used) / LIMIT_SHARE
 
 
@@ -81,7 +85,9 @@ def best(state: tuple[float, ...]) -> np.ndarray:
     scale = 1.0 / np.array(DURATIONS)  # steps of acceleration as unknowns: well conditioned
     residual, constant = affine(lambda x: grid(scale * x), n)
     limits, used = affine(lambda x: controls(state, scale * x), n)
-    final, left = affine(lambda x: np.array([float(q[-1]) for q in simulate(state, scale * x)[-1][1][1:]]), n)
+    final, left = affine(
+        lambda x: np.array([float(q[-1]) for q in simulate(state, scale * x)[-1][1][1:]]), n
+    )
     hessian, linear = residual.T @ residual, residual.T @ constant
     within: Any = [
         {"type": "ineq", "fun": lambda x: 1.0 - limits @ x - used, "jac": lambda _: -limits},
@@ -125,16 +131,23 @@ def test_the_plan_is_the_one_that_scipy_finds(state: tuple[float, float, float, 
     jerks = solved(HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS), state)
     other = best(state)
     assert cost(state, np.array(jerks)) == pytest.approx(cost(state, other), rel=1e-6, abs=1e-9)
-    assert accelerations(state, np.array(jerks)) == pytest.approx(accelerations(state, other), abs=1e-4)
+    assert accelerations(state, np.array(jerks)) == pytest.approx(
+        accelerations(state, other), abs=1e-4
+    )
 
 
 @pytest.mark.parametrize("state", STATES, ids=str)
-def test_every_plan_ends_at_a_standstill_inside_all_limits(state: tuple[float, float, float, float]) -> None:
+def test_every_plan_ends_at_a_standstill_inside_all_limits(
+    state: tuple[float, float, float, float],
+) -> None:
     """Also between the nodes, and with the limits used where the demand is large."""
     jerks = solved(HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS), state)
     blocks = simulate(state, np.array(jerks))
     assert [float(x[-1]) for x in blocks[-1][1][1:]] == pytest.approx([0.0, 0.0], abs=1e-6)
-    most = np.max(np.abs([np.concatenate([path[i] for _, path in blocks]) for i in range(3)]), axis=1) / LIMITS[:3]
+    most = (
+        np.max(np.abs([np.concatenate([path[i] for _, path in blocks]) for i in range(3)]), axis=1)
+        / LIMITS[:3]
+    )
     assert np.all(most <= 1.0)
     assert np.max(np.abs(jerks)) <= LIMITS[3]
     if state[3] == 50.0:
@@ -186,7 +199,10 @@ def test_a_state_without_a_way_out_is_no_plan_and_is_forgotten() -> None:
     """Too fast to stop before the end; then from a harmless state as if nothing had been."""
     problem = HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS)
     assert problem.solve(0.95, 1.4, 0.0, 0.0) is None
-    again, fresh = solved(problem, STATES[1]), solved(HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS), STATES[1])
+    again, fresh = (
+        solved(problem, STATES[1]),
+        solved(HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS), STATES[1]),
+    )
     assert again == pytest.approx(fresh, abs=1e-6)
 
 
@@ -196,7 +212,10 @@ def test_small_and_large_stages_are_solved_alike(scale: float) -> None:
     one = solved(HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS), (0.3, -0.2, 0.1, 5.0))
     travel, speed, acceleration, jerk = (scale * x for x in LIMITS)
     p, v, a, demand = (scale * x for x in (0.3, -0.2, 0.1, 5.0))
-    other = solved(HorizonProblem(DURATIONS, OMEGA, FADE, (travel, speed, acceleration, jerk)), (p, v, a, demand))
+    other = solved(
+        HorizonProblem(DURATIONS, OMEGA, FADE, (travel, speed, acceleration, jerk)),
+        (p, v, a, demand),
+    )
     assert [x / scale for x in other] == pytest.approx(one, abs=1e-2)
 
 

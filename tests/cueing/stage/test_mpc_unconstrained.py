@@ -32,14 +32,24 @@ def test_a_free_plan_is_the_one_that_the_solver_finds(state: State) -> None:
 @settings(max_examples=300, deadline=None)
 @given(st.one_of(mild, states))
 def test_free_is_what_keeps_every_limit_and_nothing_else(state: State) -> None:
-    """By a second derivation: control points of the simulated plan; the bound that settles most cases errs to neither side."""
+    """By a second derivation: control points of the simulated plan.
+
+    The bound that settles most cases errs to neither side.
+    """
     used = float(np.max(np.abs(controls(state, np.array(PROBLEM.unlimited.plan(state).jerks)))))
     if abs(used - 1.0) > 1e-9:
         assert PROBLEM.unlimited.is_free(state) == (used < 1.0)
 
 
 def test_both_answers_occur() -> None:
-    assert [PROBLEM.unlimited.is_free(state) for state in STATES] == [False, True, False, False, False, False]
+    assert [PROBLEM.unlimited.is_free(state) for state in STATES] == [
+        False,
+        True,
+        False,
+        False,
+        False,
+        False,
+    ]
 
 
 def test_the_solver_is_asked_only_where_limits_matter() -> None:

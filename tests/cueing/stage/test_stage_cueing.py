@@ -41,7 +41,9 @@ def test_random_demands_of_any_size_stay_inside(planned: StageParameters, dt: fl
     for _ in range(3000):
         f, w = random.standard_normal((2, 3)) * 10.0 ** random.uniform(-2.0, 12.0)
         p, v, a = cueing.step(IDENTITY, tuple(w.tolist()), tuple(f.tolist()))
-        for state, limit in zip((p, v, a), (LIMITS.travel, LIMITS.speed, LIMITS.acceleration), strict=True):
+        for state, limit in zip(
+            (p, v, a), (LIMITS.travel, LIMITS.speed, LIMITS.acceleration), strict=True
+        ):
             assert np.all(np.abs(state) <= limit)
 
 
@@ -116,13 +118,20 @@ def test_the_head_s_own_acceleration_is_subtracted(planned: StageParameters, hea
 
 def test_each_axis_has_its_planner_and_its_limits() -> None:
     for planned, kind in ((ONSET, HighPass), (StageParameters(), HorizonAxis)):
-        assert all(isinstance(axis, kind) for axis in StageCueing(0.01, planned, LIMITS, ZERO)._axes)
-    bounds = [axis.problem.bound[-2] for axis in StageCueing(0.01, StageParameters(travel=(0.5, 2.0, 2.0)), LIMITS, ZERO)._axes]
+        assert all(
+            isinstance(axis, kind) for axis in StageCueing(0.01, planned, LIMITS, ZERO)._axes
+        )
+    bounds = [
+        axis.problem.bound[-2]
+        for axis in StageCueing(0.01, StageParameters(travel=(0.5, 2.0, 2.0)), LIMITS, ZERO)._axes
+    ]
     assert bounds == pytest.approx([0.999 * x for x in (0.5, 1.0, 0.75)])
 
 
 @pytest.mark.parametrize("dt", DTS)
-def test_no_more_axes_plan_in_one_tick_than_there_have_to(dt: float, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_more_axes_plan_in_one_tick_than_there_have_to(
+    dt: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """At 1000 Hz the three are never in one tick, and each plans 50 times a second."""
     plans: list[list[int]] = [[], [], []]
     cueing = StageCueing(dt, StageParameters(), LIMITS, ZERO)

@@ -40,7 +40,11 @@ def command(time: float, states: Sequence[State]) -> Command:
 
 
 def states(one: Command) -> list[State]:
-    p, v, a = (0.0, 0.0, 0.0, *one.p_WS_W), one.wheel_speed + one.v_WS_W, one.wheel_acceleration + one.a_WS_W
+    p, v, a = (
+        (0.0, 0.0, 0.0, *one.p_WS_W),
+        one.wheel_speed + one.v_WS_W,
+        one.wheel_acceleration + one.a_WS_W,
+    )
     return list(zip(p, v, a, strict=True))
 
 
@@ -59,7 +63,11 @@ def guard_at(dt: float, before: Command) -> Guard:
 def coast(state: State, jerk: float, t: float) -> State:
     """After t seconds of constant jerk."""
     p, v, a = state
-    return p + v * t + a * t * t / 2.0 + jerk * t**3 / 6.0, v + a * t + jerk * t * t / 2.0, a + jerk * t
+    return (
+        p + v * t + a * t * t / 2.0 + jerk * t**3 / 6.0,
+        v + a * t + jerk * t * t / 2.0,
+        a + jerk * t,
+    )
 
 
 def stop_distance(v: float, a_max: float, j_max: float) -> float:
@@ -75,7 +83,9 @@ def rows(outputs: Iterable[Command]) -> Array:
 def excess(dt: float, outputs: Sequence[Command]) -> float:
     """Largest share used of any limit, less one, by the numbers and by their differences, the first output after standstill."""
     x = rows([outputs[0]] * 4 + list(outputs))
-    speed, acceleration, jerk, travel = (np.array(each) for each in zip(*map(limits, range(6)), strict=True))
+    speed, acceleration, jerk, travel = (
+        np.array(each) for each in zip(*map(limits, range(6)), strict=True)
+    )
     p, v, a = (x[:, :, k] for k in range(3))
     shares = [v / speed, a / acceleration, np.diff(v, axis=0) / dt / acceleration]
     shares += [np.diff(a, axis=0) / dt / jerk, np.diff(v, 2, axis=0) / dt**2 / jerk, p / travel]

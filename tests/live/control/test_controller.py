@@ -93,7 +93,10 @@ def test_a_source_that_is_broken_for_good_does_not_keep_the_run_from_ending(atte
     rig.wanted.signals = 1
     rig.tick()
     assert rig.conductor.over
-    assert (rig.conductor.ended.result, rig.conductor.ended.reason) == ("fault", "RuntimeError: gone")
+    assert (rig.conductor.ended.result, rig.conductor.ended.reason) == (
+        "fault",
+        "RuntimeError: gone",
+    )
     assert rig.conductor.ended.faults == 1
     assert rig.excess() <= ROUNDING
 

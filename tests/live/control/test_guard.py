@@ -8,10 +8,13 @@ import pytest
 from .guard_states import AXES, ROUNDING, State, alone, coast, guard_at, limits, stop_distance
 
 DT = 0.01
-NEAR = 1e-8  # how near to a bound, as a share of its size: the guard's room for rounding is a hundred times as much
+# how near to a bound, as a share of its size: the guard's room for rounding is a hundred times as
+# much
+NEAR = 1e-8
 
 Pair = tuple[State, State]  # before and after
-Case = tuple[str, Callable[[int, float], Pair], float]  # what is refused; the pair at a share of the bound; how near
+# what is refused; the pair at a share of the bound; how near
+Case = tuple[str, Callable[[int, float], Pair], float]
 
 
 def speed(axis: int, share: float) -> Pair:
@@ -45,7 +48,10 @@ def speed_by_jerk(axis: int, share: float) -> Pair:
 
 
 def speed_by_jerk_while_it_changes(axis: int, share: float) -> Pair:
-    """Half the jerk is used for the acceleration; a quarter of the tick backwards, three quarters forwards."""
+    """Half the jerk is used for the acceleration.
+
+    A quarter of the tick backwards, three quarters forwards.
+    """
     reach = ROUNDING**2 * limits(axis)[2]
     before = (0.0, 0.1, -0.1)
     p, v, a = coast(coast(before, share * reach, 0.75 * DT), -share * reach, 0.25 * DT)
@@ -99,7 +105,10 @@ def position_before_the_new_speed(axis: int, share: float) -> Pair:
 
 
 def furthest(axis: int, first: float, middle: float) -> Pair:
-    """Where the full jerk leads, with its sign changed for a share of the tick after a first one; 0 stays where it was."""
+    """Where the full jerk leads, with its sign changed for a share of the tick after a first one.
+
+    0 stays where it was.
+    """
     reach = ROUNDING**2 * limits(axis)[2]
     before = (0.02, 0.15, -0.3)
     after = coast(before, reach, first * DT)
@@ -146,7 +155,10 @@ RAIL_CASES: list[Case] = [
     ("position by the speed", position_by_speed, NEAR),
     ("position by the acceleration", position_after_the_old_speed, NEAR),
     ("position by the acceleration", position_before_the_new_speed, NEAR),
-    *(("position by the jerk", position_by_jerk(*where), NEAR) for where in ((0.2, 0.5), (0.5, 0.1), (0.1, 0.6), (0.6, 0.3))),
+    *(
+        ("position by the jerk", position_by_jerk(*where), NEAR)
+        for where in ((0.2, 0.5), (0.5, 0.1), (0.1, 0.6), (0.6, 0.3))
+    ),
     ("standstill", standstill, NEAR),
     ("standstill", standstill_from_creeping, NEAR),
     ("turning point", turning_point, NEAR),
@@ -163,11 +175,16 @@ def mirrored(state: State, sign: float) -> State:
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-@pytest.mark.parametrize(("axis", "what", "pair", "near"), CASES, ids=lambda x: getattr(x, "__name__", str(x)))
-def test_a_bound(axis: int, what: str, pair: Callable[[int, float], Pair], near: float, sign: float) -> None:
+@pytest.mark.parametrize(
+    ("axis", "what", "pair", "near"), CASES, ids=lambda x: getattr(x, "__name__", str(x))
+)
+def test_a_bound(
+    axis: int, what: str, pair: Callable[[int, float], Pair], near: float, sign: float
+) -> None:
     for share in (1.0 - near, 1.0 + near):
         before, after = (
-            alone(axis, mirrored(state, sign), t) for state, t in zip(pair(axis, share), (5.0, 5.0 + DT), strict=True)
+            alone(axis, mirrored(state, sign), t)
+            for state, t in zip(pair(axis, share), (5.0, 5.0 + DT), strict=True)
         )
         guard = guard_at(DT, before)
         given = guard.check(after)
@@ -176,6 +193,9 @@ def test_a_bound(axis: int, what: str, pair: Callable[[int, float], Pair], near:
             assert (guard.reason, guard.stopping) == ("", False)
         else:
             assert given is not after
-            assert guard.reason.partition(", allowed: ")[0].rpartition(" ")[0] == f"{AXES[axis]} {what}", guard.reason
+            assert (
+                guard.reason.partition(", allowed: ")[0].rpartition(" ")[0]
+                == f"{AXES[axis]} {what}"
+            ), guard.reason
             assert guard.reason.endswith(f"at {after.time} s")
             assert guard.stopping

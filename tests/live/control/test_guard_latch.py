@@ -45,7 +45,9 @@ def test_the_first_refusal_latches_with_its_reason() -> None:
     given += [guard.stop(10 * DT)]
     assert (guard.reason, guard.stopping) == (reason, True)
     braked = underway()
-    assert [braked.stop(n * DT) for n in range(5, 11)] == given, "the same stop, whatever it is asked"
+    assert [braked.stop(n * DT) for n in range(5, 11)] == given, (
+        "the same stop, whatever it is asked"
+    )
     assert braked.reason == f"no command at {5 * DT} s"
     assert [one.time for one in given] == [n * DT for n in range(5, 11)]
 
@@ -61,7 +63,9 @@ def test_fit_commands_do_not_open_it_again() -> None:
         fit = replace(held, time=held.time + n * DT)
         assert guard.check(fit) == fit
         assert guard.stopping
-    assert guard.check(replace(fit, time=fit.time + DT, p_WS_W=(0.0, 0.0, 0.0))).p_WS_W == held.p_WS_W
+    assert (
+        guard.check(replace(fit, time=fit.time + DT, p_WS_W=(0.0, 0.0, 0.0))).p_WS_W == held.p_WS_W
+    )
 
 
 def test_a_standing_start_opens_it_again_anywhere_at_any_time() -> None:
@@ -83,7 +87,9 @@ def test_a_standing_start_opens_it_again_anywhere_at_any_time() -> None:
 def test_a_start_in_motion_is_refused(axis: int, rate: float) -> None:
     guard = fresh()
     for state in ((0.0, rate, 0.0), (0.0, 0.0, rate)):
-        with pytest.raises(InputError, match=r"standstill inside the travel: a rate .*, allowed: 0 <= value <= 0$"):
+        with pytest.raises(
+            InputError, match=r"standstill inside the travel: a rate .*, allowed: 0 <= value <= 0$"
+        ):
             guard.start(alone(axis, state, 0.0))
 
 
@@ -101,7 +107,10 @@ def test_a_start_at_no_time_is_refused(time: float) -> None:
     guard = fresh()
     with pytest.raises(
         InputError,
-        match=r"^start from a standstill inside the travel: time \S+, allowed: -10000000000 <= value <= 10000000000$",
+        match=(
+            r"^start from a standstill inside the travel: time \S+, allowed: -10000000000 <= value"
+            r" <= 10000000000$"
+        ),
     ):
         guard.start(replace(STANDING, time=time))
     assert guard.check(replace(STANDING, time=time)) == replace(STANDING, time=DT)
@@ -130,7 +139,9 @@ def test_the_first_command_may_have_any_time(time: float) -> None:
         (lambda _: nextafter(DT + 0.1, inf), False),
     ],
 )
-def test_a_late_command_is_fit_and_an_early_one_is_not(late: Callable[[float], float], fit: bool) -> None:
+def test_a_late_command_is_fit_and_an_early_one_is_not(
+    late: Callable[[float], float], fit: bool
+) -> None:
     guard = fresh()
     guard.start(STANDING)
     one = replace(moving(1), time=late(0.0))
@@ -170,7 +181,9 @@ def test_a_time_may_be_a_whole_number() -> None:
 @pytest.mark.parametrize("time", [None, "", nan, inf, -5.0, 4 * DT, 4 * DT + 0.2, 1e300])
 def test_the_stop_keeps_time_when_it_is_given_none(time: float) -> None:
     guard = underway()
-    assert [guard.stop(time).time for _ in range(3)] == pytest.approx([5 * DT, 6 * DT, 7 * DT], abs=1e-12)
+    assert [guard.stop(time).time for _ in range(3)] == pytest.approx(
+        [5 * DT, 6 * DT, 7 * DT], abs=1e-12
+    )
 
 
 @pytest.mark.parametrize("time", [DT * (1.0 - 1e-6), DT + 0.1])

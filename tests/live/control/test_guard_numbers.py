@@ -77,10 +77,14 @@ def test_limits_that_make_no_sense_are_refused(bad: float, place: int) -> None:
         Guard(bad, WHEELS, STAGE)
     for quantity in ("speed", "acceleration", "jerk"):
         wheels: dict[str, object] = {quantity: spread(getattr(WHEELS, quantity), place, bad)}
-        with pytest.raises(InputError, match=f"{AXES[place]} {quantity} {bad:g}, allowed: 0 < value < inf"):
+        with pytest.raises(
+            InputError, match=f"{AXES[place]} {quantity} {bad:g}, allowed: 0 < value < inf"
+        ):
             Guard(DT, replace(WHEELS, **wheels), STAGE)
         stage: dict[str, object] = {quantity: spread(getattr(STAGE, quantity), place, bad)}
-        with pytest.raises(InputError, match=f"{AXES[3 + place]} {quantity} {bad:g}, allowed: 0 < value < inf"):
+        with pytest.raises(
+            InputError, match=f"{AXES[3 + place]} {quantity} {bad:g}, allowed: 0 < value < inf"
+        ):
             Guard(DT, WHEELS, replace(STAGE, **stage))
 
 
@@ -88,7 +92,10 @@ def test_limits_that_make_no_sense_are_refused(bad: float, place: int) -> None:
 def test_a_travel_without_room_between_two_ticks_is_refused(place: int) -> None:
     unused = STAGE.acceleration[place] * DT * DT / 8.0
     for bad in (0.0, -1.0, nan, inf, unused):
-        with pytest.raises(InputError, match=f"{AXES[3 + place]} travel {bad:g} m, allowed: {unused:.3g} < value < inf"):
+        with pytest.raises(
+            InputError,
+            match=f"{AXES[3 + place]} travel {bad:g} m, allowed: {unused:.3g} < value < inf",
+        ):
             Guard(DT, WHEELS, replace(STAGE, travel=spread(STAGE.travel, place, bad)))
     Guard(DT, WHEELS, replace(STAGE, travel=spread(STAGE.travel, place, nextafter(unused, inf))))
 
@@ -112,7 +119,11 @@ def spread(three: tuple[float, ...], place: int, value: float) -> tuple[float, .
 def test_positions_may_be_rounded(sign: float, inside: bool) -> None:
     """On a million metres of rail one step of a double is a tenth of a nanometre, far more than this jerk moves in a tick."""
     travel, jerk = 1e6, 1e-6
-    guard = Guard(DT, WheelLimits(*((1.0,) * 3,) * 3), StageLimits((travel,) * 3, *((1.0,) * 3,) * 2, (jerk,) * 3))
+    guard = Guard(
+        DT,
+        WheelLimits(*((1.0,) * 3,) * 3),
+        StageLimits((travel,) * 3, *((1.0,) * 3,) * 2, (jerk,) * 3),
+    )
     step = 4.0 * ulp(travel) * (1.0 - 1e-6 if inside else 1.0 + 1e-3)
     moved = replace(STANDING, time=DT, p_WS_W=(sign * step, 0.0, 0.0))
     assert (guard.check(moved) is moved) == inside, guard.reason

@@ -30,14 +30,19 @@ def of(tick: Tick) -> Command:
 
 
 @pytest.mark.parametrize(
-    ("name", "method"), [("f16_rolls", "force"), ("c172_elevator_doublet", "blend"), ("signal_all_axes", "force")]
+    ("name", "method"),
+    [("f16_rolls", "force"), ("c172_elevator_doublet", "blend"), ("signal_all_axes", "force")],
 )
 def test_flights_pass_untouched(name: str, method: str) -> None:
     scenario = load_scenario(SCENARIOS / f"{name}.toml", [f"cueing.method={method}"])
     flight = scenario.flight
-    vehicle: Vehicle = SignalVehicle(flight) if isinstance(flight, SignalFlight) else JsbsimVehicle(flight)
+    vehicle: Vehicle = (
+        SignalVehicle(flight) if isinstance(flight, SignalFlight) else JsbsimVehicle(flight)
+    )
     pipeline = build_pipeline(scenario, vehicle.dt)
-    guard = Guard(vehicle.dt, scenario.platform.wheel_limit_values(), scenario.platform.stage_limit_values())
+    guard = Guard(
+        vehicle.dt, scenario.platform.wheel_limit_values(), scenario.platform.stage_limit_values()
+    )
     for _ in range(1000):
         one = of(pipeline.step(vehicle.state))
         assert guard.check(one) is one, guard.reason
@@ -54,7 +59,14 @@ def test_smoothing_of_wild_cues_passes_untouched(name: str, dt: float) -> None:
     step, guard = platform.smoothing(dt).step, Guard(dt, platform.wheels, platform.stage)
 
     def driven(m: Motion) -> Command:
-        return Command(m.time, apply((x, y, z), m.w_WS_W), apply((x, y, z), m.alpha_WS_W), m.p_WS_W, m.v_WS_W, m.a_WS_W)
+        return Command(
+            m.time,
+            apply((x, y, z), m.w_WS_W),
+            apply((x, y, z), m.alpha_WS_W),
+            m.p_WS_W,
+            m.v_WS_W,
+            m.a_WS_W,
+        )
 
     for cue in wild(dt, 1000, np.random.default_rng(11)):
         one = driven(step(cue))
@@ -70,7 +82,11 @@ def hostile(dt: float, random: np.random.Generator, guard: Guard) -> Iterator[Co
         share = size * random.choice([-1.0, 0.0, 1.0, 0.5], 6) * random.choice([0.05, 1.0], 6)
         for _ in range(int(10.0 ** random.uniform(0.0, 2.2))):
             asked = [coast(state, j, dt) for state, j in zip(asked, share * jerk, strict=True)]
-            asked = [soothed(k, state, dt) for k, state in enumerate(asked)] if random.random() < 0.02 else asked
+            asked = (
+                [soothed(k, state, dt) for k, state in enumerate(asked)]
+                if random.random() < 0.02
+                else asked
+            )
             one = command(guard._last.time + dt, asked)
             yield one if random.random() > 0.005 else wrong(one, random)
 
@@ -88,7 +104,14 @@ def wrong(one: Command, random: np.random.Generator) -> Command:
     junk = [np.nan, np.inf, -np.inf, 1e308, 0.0, *(10.0 ** random.uniform(-6.0, 3.0, 3))]
     value = tuple(float(x) for x in random.choice(junk, 3))
     return replace(
-        one, **{field: float(random.choice([one.time - 1.0, one.time, np.nan, *junk])) if field == "time" else value}
+        one,
+        **{
+            field: (
+                float(random.choice([one.time - 1.0, one.time, np.nan, *junk]))
+                if field == "time"
+                else value
+            )
+        },
     )
 
 
@@ -97,7 +120,13 @@ def test_of_hostile_commands_nothing_comes_out_that_breaks_a_limit(dt: float, se
     random, guard, passed, stops = np.random.default_rng(seed), Guard(dt, WHEELS, STAGE), 0, 0
     ticks = 0
     while ticks < 5000:
-        guard.start(replace(STANDING, time=float(random.uniform(-1e3, 1e3)), p_WS_W=(0.5, -0.3, 0.2) if stops % 2 else ZERO))
+        guard.start(
+            replace(
+                STANDING,
+                time=float(random.uniform(-1e3, 1e3)),
+                p_WS_W=(0.5, -0.3, 0.2) if stops % 2 else ZERO,
+            )
+        )
         outputs = [guard._last]
         for one in islice(hostile(dt, random, guard), 5000):
             outputs.append(guard.check(one))

@@ -57,11 +57,17 @@ def test_good_input_says_nothing(state: State) -> None:
 
 @pytest.mark.parametrize(("age", "bad"), [(STALE, 0), (0.025, 0), (0.0, BAD_SAMPLES - 1)])
 def test_what_is_borne(age: float, bad: int) -> None:
-    assert InputMonitor().watch(1.0, State.RUNNING, True, replace(GOOD, age=age, bad_in_a_row=bad)) == []
+    assert (
+        InputMonitor().watch(1.0, State.RUNNING, True, replace(GOOD, age=age, bad_in_a_row=bad))
+        == []
+    )
 
 
 def test_each_trouble_is_told_with_its_reason() -> None:
-    reasons = {name: InputMonitor().watch(1.0, State.RUNNING, True, intake)[0][1] for name, intake in TROUBLES.items()}
+    reasons = {
+        name: InputMonitor().watch(1.0, State.RUNNING, True, intake)[0][1]
+        for name, intake in TROUBLES.items()
+    }
     assert reasons == {
         "stale": "no input for 0.10 s",
         "bad": "3 bad samples in a row: NaN",
@@ -87,7 +93,9 @@ def test_good_for_counts_from_the_last_trouble() -> None:
 def ready(supervisor: InputMonitor, *, moving: bool = False, seconds: float = 2.0) -> float | None:
     """When a hold is said to be over, s after its beginning."""
     for k in range(round(100 * seconds)):
-        if (Event.READY, "input is good again") in supervisor.watch(3.0 + 0.01 * k, State.HOLDING, moving, GOOD):
+        if (Event.READY, "input is good again") in supervisor.watch(
+            3.0 + 0.01 * k, State.HOLDING, moving, GOOD
+        ):
             return 0.01 * k
     return None
 
@@ -108,4 +116,6 @@ def test_a_hold_waits_a_second_for_input(held: bool) -> None:
     supervisor = InputMonitor()
     supervisor.held = held
     assert supervisor.watch(1.0, State.HOLDING, False, replace(GOOD, age=LOST)) == []
-    assert supervisor.watch(1.1, State.HOLDING, True, replace(GOOD, age=LOST + 0.01)) == [(Event.LOST, "no input for 1.01 s")]
+    assert supervisor.watch(1.1, State.HOLDING, True, replace(GOOD, age=LOST + 0.01)) == [
+        (Event.LOST, "no input for 1.01 s")
+    ]

@@ -47,7 +47,12 @@ def test_an_event_without_a_way_changes_nothing() -> None:
 @pytest.mark.parametrize("platform", ["atlas-2.9m", "atlas-tabletop", "atlas-1.5m"])
 def test_there_and_back_with_every_method(method: str, platform: str) -> None:
     """Engaged to a spinning vehicle, held, resumed, parked, engaged again: in time and in all limits."""
-    rig = Rig(0.02, platform, (f"cueing.method={method}", *(QUICK if method != "classical" else ())), rate=0.3)
+    rig = Rig(
+        0.02,
+        platform,
+        (f"cueing.method={method}", *(QUICK if method != "classical" else ())),
+        rate=0.3,
+    )
     rig.bring_to(State.HOLDING)
     rig.until(lambda: not rig.ride.moving, 3.0)
     rig.press("engage")
@@ -66,7 +71,10 @@ def test_there_and_back_with_every_method(method: str, platform: str) -> None:
 
 
 def test_a_turn_over_does_not_tear_the_cue_at_the_next_start() -> None:
-    """Home by the shorter way may be home at -q, which the next cueing knows nothing of; then the same through a fault."""
+    """Home by the shorter way may be home at -q, which the next cueing knows nothing of.
+
+    Then the same through a fault.
+    """
     rig = Rig(0.02, settings=("cueing.method=attitude", *QUICK), rate=1.2)
     rig.bring_to(State.RUNNING)
     rig.until(lambda: rig.motion.q_WS[0] < -0.5, 20.0)
@@ -114,7 +122,10 @@ def test_time_is_even_through_a_reset() -> None:
 
 
 def test_the_first_cueing_is_not_built_in_the_tick_that_sets_out() -> None:
-    """A pipeline takes tens of milliseconds to build: there is one already, at the start and after a reset."""
+    """A pipeline takes tens of milliseconds to build.
+
+    There is one already, at the start and after a reset.
+    """
     rig = Rig(0.02)
     rig.ride._new_pipeline = lambda: pytest.fail("built in a tick")  # type: ignore[assignment]
     rig.bring_to(State.RUNNING)
@@ -128,15 +139,24 @@ def test_a_cue_that_is_not_finite_is_refused(bad: float) -> None:
     assert cueing is not None
     cueing.step = lambda vehicle: Cue(vehicle.time, IDENTITY, (bad, 0.0, 0.0), ZERO, ZERO, ZERO)  # type: ignore[method-assign]
     with pytest.raises(PlanningError, match="not finite"):
-        rig.ride.step(VehicleState(rig.tape.ticks[-1].motion.time + rig.dt, IDENTITY, ZERO, (0.0, 0.0, -9.8)))
+        rig.ride.step(
+            VehicleState(rig.tape.ticks[-1].motion.time + rig.dt, IDENTITY, ZERO, (0.0, 0.0, -9.8))
+        )
 
 
 def test_the_commands_say_what_the_tick_says() -> None:
     rig = Rig(settings=QUICK)
     rig.bring_to(State.RUNNING)
     tick, command = rig.tape.ticks[-1], rig.tape.commands[-1]
-    assert (command.time, command.p_WS_W, command.v_WS_W) == (tick.motion.time, tick.motion.p_WS_W, tick.motion.v_WS_W)
-    assert (command.wheel_speed, command.wheel_acceleration) == (tick.wheels.speed, tick.wheels.acceleration)
+    assert (command.time, command.p_WS_W, command.v_WS_W) == (
+        tick.motion.time,
+        tick.motion.p_WS_W,
+        tick.motion.v_WS_W,
+    )
+    assert (command.wheel_speed, command.wheel_acceleration) == (
+        tick.wheels.speed,
+        tick.wheels.acceleration,
+    )
 
 
 def test_no_vehicle_is_level_and_at_rest() -> None:

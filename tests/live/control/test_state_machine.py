@@ -21,8 +21,12 @@ def expected(state: State, event: Event) -> State:
     """Event by event, where the table goes state by state."""
     if event is Event.FAULT:  # stops whatever was not stopped by a fault before
         return state if state in (State.FAULT_STOPPING, State.STOPPED) else State.FAULT_STOPPING
-    if state in (State.FAULT_STOPPING, State.STOPPED):  # a fault is deaf to all but its own end and a reset
-        ways = {(State.FAULT_STOPPING, Event.ARRIVED): State.STOPPED, (State.STOPPED, Event.RESET): State.PARKING}
+    # a fault is deaf to all but its own end and a reset
+    if state in (State.FAULT_STOPPING, State.STOPPED):
+        ways = {
+            (State.FAULT_STOPPING, Event.ARRIVED): State.STOPPED,
+            (State.STOPPED, Event.RESET): State.PARKING,
+        }
         return ways.get((state, event), state)
     match event:
         case Event.ENGAGE:
@@ -34,7 +38,9 @@ def expected(state: State, event: Event) -> State:
         case Event.BAD:
             return State.HOLDING if state in (State.ENGAGING, State.RUNNING) else state
         case Event.LOST:
-            return State.PARKING if state in (State.ENGAGING, State.RUNNING, State.HOLDING) else state
+            return (
+                State.PARKING if state in (State.ENGAGING, State.RUNNING, State.HOLDING) else state
+            )
         case Event.READY:
             return State.ENGAGING if state is State.HOLDING else state
         case Event.ARRIVED:
@@ -68,14 +74,19 @@ def test_every_state_can_be_reached_from_every_other() -> None:
 def test_no_way_out_of_a_fault_leads_past_its_stop() -> None:
     """Whoever comes from FAULT_STOPPING has been in STOPPED and PARKING before it runs."""
     reached, blocked = {State.FAULT_STOPPING}, State.PARKING
-    while more := {to for state in reached - {blocked} for to in TRANSITIONS[state].values()} - reached:
+    while (
+        more := {to for state in reached - {blocked} for to in TRANSITIONS[state].values()}
+        - reached
+    ):
         reached |= more
     assert reached == {State.FAULT_STOPPING, State.STOPPED, State.PARKING}
 
 
 def test_whoever_comes_to_rest_has_arrived() -> None:
     """Nothing but an arrival says that the platform is where it should be at rest."""
-    assert {event for ways in TRANSITIONS.values() for event, to in ways.items() if to in AT_REST} == {Event.ARRIVED}
+    assert {
+        event for ways in TRANSITIONS.values() for event, to in ways.items() if to in AT_REST
+    } == {Event.ARRIVED}
 
 
 def test_names_and_numbers_are_those_of_the_log() -> None:

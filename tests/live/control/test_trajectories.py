@@ -49,7 +49,12 @@ def spinning(w: Vec3, q0: Quat = IDENTITY) -> Callable[[float], Cue]:
     def at(t: float) -> Cue:
         s, c = sin(2.0 * t), cos(2.0 * t)
         return Cue(
-            t, multiply(exp(scale(t, w)), q0), w, (0.3 * s, 0.1, 0.2 * c), (0.6 * c, 0.0, -0.4 * s), (-1.2 * s, 0.0, -0.8 * c)
+            t,
+            multiply(exp(scale(t, w)), q0),
+            w,
+            (0.3 * s, 0.1, 0.2 * c),
+            (0.6 * c, 0.0, -0.4 * s),
+            (-1.2 * s, 0.0, -0.8 * c),
         )
 
     return at
@@ -59,12 +64,17 @@ def resting(_: float) -> Cue:
     return HOME
 
 
-def drive(course: Trajectory, seconds: float, cue: Callable[[float], Cue] = resting, dt: float = DT) -> list[Cue]:
+def drive(
+    course: Trajectory, seconds: float, cue: Callable[[float], Cue] = resting, dt: float = DT
+) -> list[Cue]:
     return [course.step(cue(dt * (k + 1))) for k in range(round(seconds / dt))]
 
 
 def columns(cues: list[Cue]) -> tuple[Array, Array, Array, Array, Array]:
-    q, w, p, v, a = (np.array([getattr(c, name) for c in cues]) for name in ("q_WS", "w_WS_W", "p_WS_W", "v_WS_W", "a_WS_W"))
+    q, w, p, v, a = (
+        np.array([getattr(c, name) for c in cues])
+        for name in ("q_WS", "w_WS_W", "p_WS_W", "v_WS_W", "a_WS_W")
+    )
     return q, w, p, v, a
 
 
@@ -76,9 +86,13 @@ def check_derivatives(cues: list[Cue], dt: float = DT, size: float = 1.0) -> Non
     q, w, p, v, a = columns(cues)
     r = Rotation.from_quat(q, scalar_first=True)
     near = 60.0 * size * dt**2 + 1e-9
-    np.testing.assert_allclose((r[2:] * r[:-2].inv()).as_rotvec() / (2.0 * dt), w[1:-1], rtol=0.0, atol=near)
+    np.testing.assert_allclose(
+        (r[2:] * r[:-2].inv()).as_rotvec() / (2.0 * dt), w[1:-1], rtol=0.0, atol=near
+    )
     np.testing.assert_allclose((p[2:] - p[:-2]) / (2.0 * dt), v[1:-1], rtol=0.0, atol=near)
-    np.testing.assert_allclose((v[2:] - v[:-2]) / (2.0 * dt), a[1:-1], rtol=0.0, atol=5.0 * size * dt)
+    np.testing.assert_allclose(
+        (v[2:] - v[:-2]) / (2.0 * dt), a[1:-1], rtol=0.0, atol=5.0 * size * dt
+    )
     assert np.all(np.sum(q[1:] * q[:-1], axis=1) > 0.0), "the quaternion's sign jumps"
     np.testing.assert_allclose(np.linalg.norm(q, axis=1), 1.0, atol=1e-12)
 
@@ -117,7 +131,9 @@ def test_a_calm_move_is_calm_and_no_calmer_than_need_be(angle: float, distance: 
 def test_follow_is_the_cue_and_stay_is_a_place() -> None:
     cue = spinning((0.1, 0.2, 0.3))(1.0)
     assert FollowTrajectory().step(cue) is cue
-    still = HoldTrajectory(motion((0.6, 0.8, 0.0, 0.0), (1.0, 0.0, 0.0), (0.1, 0.2, 0.3), (1.0, 0.0, 0.0)))
+    still = HoldTrajectory(
+        motion((0.6, 0.8, 0.0, 0.0), (1.0, 0.0, 0.0), (0.1, 0.2, 0.3), (1.0, 0.0, 0.0))
+    )
     assert still.step(cue) == Cue(1.0, (0.6, 0.8, 0.0, 0.0), ZERO, (0.1, 0.2, 0.3), ZERO, ZERO)
     assert still.arrived
     assert FollowTrajectory().arrived
@@ -133,7 +149,9 @@ def test_a_halt_fades_every_rate_out(q: Quat, w: Vec3, p: Vec3, v: Vec3) -> None
     end = cues[-1]
     assert (end.w_WS_W, end.v_WS_W, end.a_WS_W) == (ZERO, ZERO, ZERO)
     assert geodesic(end.q_WS, multiply(exp(scale(0.5 * HALT_TIME, w)), q)) < 1e-9
-    assert end.p_WS_W == pytest.approx([x + 0.5 * HALT_TIME * y for x, y in zip(p, v, strict=True)], abs=1e-12)
+    assert end.p_WS_W == pytest.approx(
+        [x + 0.5 * HALT_TIME * y for x, y in zip(p, v, strict=True)], abs=1e-12
+    )
     turn = [norm(cue.w_WS_W) for cue in cues]
     assert all(after <= before + 1e-12 for before, after in pairwise(turn))
 
@@ -154,7 +172,9 @@ def test_a_halt_stays_inside_the_travel(p: Vec3, v: Vec3) -> None:
 
 @pytest.mark.parametrize("place", [0.999, 1.0, 1.0 + 1e-12])
 def test_a_halt_at_the_rail(place: float) -> None:
-    cues = drive(StopTrajectory(motion(p=(place, 0.0, 0.0), v=(1.0, 0.0, 0.0)), DT, TRAVEL), HALT_TIME + DT)
+    cues = drive(
+        StopTrajectory(motion(p=(place, 0.0, 0.0), v=(1.0, 0.0, 0.0)), DT, TRAVEL), HALT_TIME + DT
+    )
     assert np.all(np.isfinite(columns(cues)[4]))
     assert abs(cues[-1].p_WS_W[0] - 1.0) < 1e-3
     assert cues[-1].v_WS_W == ZERO
@@ -184,8 +204,12 @@ def test_home_takes_a_second_from_nowhere() -> None:
 
 
 @FEW
-@given(quaternions, places, quaternions, st.tuples(*(st.floats(-0.4, 0.4),) * 3), st.floats(1.0, 4.0))
-def test_a_blend_is_smooth_from_rest_to_a_spinning_cue(q: Quat, p: Vec3, q_cue: Quat, w: Vec3, duration: float) -> None:
+@given(
+    quaternions, places, quaternions, st.tuples(*(st.floats(-0.4, 0.4),) * 3), st.floats(1.0, 4.0)
+)
+def test_a_blend_is_smooth_from_rest_to_a_spinning_cue(
+    q: Quat, p: Vec3, q_cue: Quat, w: Vec3, duration: float
+) -> None:
     """Also where the turn still left grows beyond half a turn on the way."""
     cue = spinning(w, q_cue)
     blend = EngageTrajectory(motion(q, p=p), cue(0.0), DT, duration)

@@ -25,7 +25,9 @@ def test_a_lively_flight_follows(rate_hz: int) -> None:
 
 def test_an_attitude_that_the_rates_do_not_explain() -> None:
     now = replace(REST, time=1.0 / 120.0, q_NB=exp((0.0, radians(1.0), 0.0)))
-    assert discontinuity(REST, now).startswith("attitude jumped by 1 deg that the body rates do not explain")
+    assert discontinuity(REST, now).startswith(
+        "attitude jumped by 1 deg that the body rates do not explain"
+    )
     assert discontinuity(REST, replace(now, q_NB=exp((0.0, radians(0.5), 0.0)))) == ""
     turning = [replace(state, w_NB_B=(0.0, radians(120.0), 0.0)) for state in (REST, now)]
     assert discontinuity(*turning) == ""
@@ -33,7 +35,9 @@ def test_an_attitude_that_the_rates_do_not_explain() -> None:
 
 def test_a_reversed_turn_is_a_jump_and_a_sign_is_none() -> None:
     turning = replace(REST, w_NB_B=(2.0, 0.0, 0.0))
-    forward, backward = (replace(turning, time=0.02, q_NB=exp((k * 0.04, 0.0, 0.0))) for k in (1, -1))
+    forward, backward = (
+        replace(turning, time=0.02, q_NB=exp((k * 0.04, 0.0, 0.0))) for k in (1, -1)
+    )
     assert discontinuity(turning, forward) == ""
     assert discontinuity(turning, replace(forward, q_NB=tuple(-c for c in forward.q_NB))) == ""
     assert discontinuity(turning, backward) != ""

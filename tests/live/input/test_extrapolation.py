@@ -72,7 +72,10 @@ CASES = [(rate_hz, loop_hz) for rate_hz in (30.0, 60.0, 120.0) for loop_hz in (5
 
 @pytest.mark.parametrize(("rate_hz", "loop_hz"), CASES)
 def test_nearer_and_quieter_than_holding(motion: Motion, rate_hz: float, loop_hz: float) -> None:
-    """Second order in the interval, where holding is of the first; and it shakes as little as the truth."""
+    """Second order in the interval, where holding is of the first.
+
+    And it shakes as little as the truth.
+    """
     got, truth = read(motion, rate_hz, loop_hz)
     held, _ = read(motion, rate_hz, loop_hz, hold=True)
     assert rms(rates(got) - rates(truth)) < 30.0 / rate_hz**2
@@ -85,16 +88,21 @@ def test_nearer_and_quieter_than_holding(motion: Motion, rate_hz: float, loop_hz
 
 @pytest.mark.parametrize(("rate_hz", "loop_hz"), CASES)
 @pytest.mark.parametrize("jitter", [0.001, 0.003])
-def test_jitter_does_not_become_acceleration(motion: Motion, rate_hz: float, loop_hz: float, jitter: float) -> None:
+def test_jitter_does_not_become_acceleration(
+    motion: Motion, rate_hz: float, loop_hz: float, jitter: float
+) -> None:
     got, truth = read(motion, rate_hz, loop_hz, jitter)
     assert shaking(got) < 1.15 * shaking(truth)
-    delayed = [motion.at(state.time - 0.5 * jitter) for state in truth]  # the mean of the delays cannot be known
+    # the mean of the delays cannot be known
+    delayed = [motion.at(state.time - 0.5 * jitter) for state in truth]
     assert rms(rates(got) - rates(delayed)) < 30.0 / rate_hz**2 + jitter
     assert float(np.max(angles(got, delayed))) < 1.2 * jitter
 
 
 @pytest.mark.parametrize(("rate_hz", "loop_hz"), CASES)
-def test_rates_are_the_derivative_of_the_attitude(motion: Motion, rate_hz: float, loop_hz: float) -> None:
+def test_rates_are_the_derivative_of_the_attitude(
+    motion: Motion, rate_hz: float, loop_hz: float
+) -> None:
     got, _ = read(motion, rate_hz, loop_hz)
     middle = 0.5 * (rates(got)[1:] + rates(got)[:-1])
     assert rms(turned_rates(got) - middle) < 30.0 / rate_hz**2
@@ -114,7 +122,15 @@ def test_a_correction_makes_no_step() -> None:
     course = Extrapolation(REST, 0.03)
     course.add(replace(REST, time=0.03))
     before = [course.at(0.001 * k) for k in range(30, 61)]
-    course.add(replace(REST, time=0.06, q_NB=exp((0.017, 0.0, 0.0)), w_NB_B=(0.0, 0.1, 0.0), f_B=(2.0, 0.0, -9.80665)))
+    course.add(
+        replace(
+            REST,
+            time=0.06,
+            q_NB=exp((0.017, 0.0, 0.0)),
+            w_NB_B=(0.0, 0.1, 0.0),
+            f_B=(2.0, 0.0, -9.80665),
+        )
+    )
     after = [course.at(0.001 * k) for k in range(61, 90)]
     angle, rate, force = steps([*before, *after]).max(axis=0)
     assert angle < 1.1 * 0.017 / 30

@@ -1,4 +1,7 @@
-"""Packets that no good simulator sends: bad, replayed, too many, from strangers. None of them is believed."""
+"""Packets that no good simulator sends: bad, replayed, too many, from strangers.
+
+None of them is believed.
+"""
 
 from math import inf, nan
 
@@ -107,8 +110,17 @@ def test_pinning_before_any_packet_pins_nobody() -> None:
 
 
 @settings(max_examples=30)
-@given(st.lists(st.tuples(st.floats(0.0, 0.03), st.one_of(st.binary(max_size=420), st.integers(0, 5), st.none())), max_size=60))
-def test_whatever_comes_the_state_stays_believable(events: list[tuple[float, bytes | int | None]]) -> None:
+@given(
+    st.lists(
+        st.tuples(
+            st.floats(0.0, 0.03), st.one_of(st.binary(max_size=420), st.integers(0, 5), st.none())
+        ),
+        max_size=60,
+    )
+)
+def test_whatever_comes_the_state_stays_believable(
+    events: list[tuple[float, bytes | int | None]],
+) -> None:
     """Good, shifted, copied and senseless packets at any times."""
     ride, time = Ride(), 0.0
     for wait, what in events:

@@ -21,7 +21,9 @@ vector = st.tuples(number, number, number)
 def test_both_samples_are_met(turn, w0, w1, error, f1, h) -> None:  # type: ignore[no-untyped-def]
     """Whatever they are, also when the rates do not explain the attitude."""
     before = VehicleState(2.0, exp(turn), w0, (0.0, 0.0, -9.8))
-    now = VehicleState(2.0 + h, normalise(multiply(exp(turn), exp(tuple(0.1 * e for e in error)))), w1, f1)
+    now = VehicleState(
+        2.0 + h, normalise(multiply(exp(turn), exp(tuple(0.1 * e for e in error)))), w1, f1
+    )
     between = Interpolation(before, now)
     first, last = between.at(2.0, 7.0), between.at(2.0 + h, 7.5)
     assert geodesic(first.q_NB, before.q_NB) < 1e-9
@@ -32,7 +34,9 @@ def test_both_samples_are_met(turn, w0, w1, error, f1, h) -> None:  # type: igno
     assert (first.time, last.time) == (7.0, 7.5)
 
 
-def read(rate_hz: int, loop_hz: int = 1000, duration: float = 3.0) -> tuple[list[VehicleState], list[VehicleState]]:
+def read(
+    rate_hz: int, loop_hz: int = 1000, duration: float = 3.0
+) -> tuple[list[VehicleState], list[VehicleState]]:
     """The motion sampled at one rate and read at another, and the truth."""
     motion = Motion(duration + 0.2)
     got, truth = [], []
@@ -46,9 +50,12 @@ def read(rate_hz: int, loop_hz: int = 1000, duration: float = 3.0) -> tuple[list
 
 
 @pytest.mark.parametrize(
-    ("rate_hz", "attitude", "rate", "force"), [(30, 4e-5, 3e-3, 7e-3), (60, 5e-6, 7e-4, 2e-3), (120, 6e-7, 2e-4, 5e-4)]
+    ("rate_hz", "attitude", "rate", "force"),
+    [(30, 4e-5, 3e-3, 7e-3), (60, 5e-6, 7e-4, 2e-3), (120, 6e-7, 2e-4, 5e-4)],
 )
-def test_error_falls_with_the_interval(rate_hz: int, attitude: float, rate: float, force: float) -> None:
+def test_error_falls_with_the_interval(
+    rate_hz: int, attitude: float, rate: float, force: float
+) -> None:
     """Third order in the attitude, second in rates and force."""
     got, truth = read(rate_hz)
     assert float(np.max(angles(got, truth))) < attitude

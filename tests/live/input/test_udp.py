@@ -36,7 +36,9 @@ def test_it_never_waits(receiver: UdpReceiver) -> None:
     assert receiver.receive() is None
 
 
-def test_datagrams_come_in_order_with_their_sender(receiver: UdpReceiver, sender: socket.socket) -> None:
+def test_datagrams_come_in_order_with_their_sender(
+    receiver: UdpReceiver, sender: socket.socket
+) -> None:
     for content in (b"one", b"", b"three"):
         sender.sendto(content, receiver.address)
     found = all_of(receiver)
@@ -44,10 +46,13 @@ def test_datagrams_come_in_order_with_their_sender(receiver: UdpReceiver, sender
     assert {datagram.sender for datagram in found} == {sender.getsockname()}
 
 
-def test_the_kernel_tells_how_long_ago_it_came(receiver: UdpReceiver, sender: socket.socket) -> None:
+def test_the_kernel_tells_how_long_ago_it_came(
+    receiver: UdpReceiver, sender: socket.socket
+) -> None:
     """Whenever it is read: the first of two is older by what was waited between them.
 
-    Once the kernel does: where nobody else has asked for it, it begins some time later. And once nobody comes between the
+    Once the kernel does: where nobody else has asked for it, it begins some time later. And once
+        nobody comes between the
     two readings: a busy machine may.
     """
 
@@ -62,7 +67,9 @@ def test_the_kernel_tells_how_long_ago_it_came(receiver: UdpReceiver, sender: so
     until(lambda: apart() >= 0.045)
 
 
-def test_a_long_datagram_is_cut_and_keeps_its_neighbours(receiver: UdpReceiver, sender: socket.socket) -> None:
+def test_a_long_datagram_is_cut_and_keeps_its_neighbours(
+    receiver: UdpReceiver, sender: socket.socket
+) -> None:
     for content in (b"a", bytes(60_000), b"b"):
         sender.sendto(content, receiver.address)
     assert [len(datagram.content) for datagram in all_of(receiver)] == [1, LARGEST, 1]
@@ -75,7 +82,9 @@ def test_a_flood_is_not_kept(receiver: UdpReceiver, sender: socket.socket) -> No
     assert 10 < len(all_of(receiver)) <= 4 * BUFFER // 408
 
 
-def test_pinned_to_one_sender_the_others_are_not_even_received(receiver: UdpReceiver, sender: socket.socket) -> None:
+def test_pinned_to_one_sender_the_others_are_not_even_received(
+    receiver: UdpReceiver, sender: socket.socket
+) -> None:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as stranger:
         stranger.sendto(b"before", receiver.address)
         receiver.pin(sender.getsockname())
@@ -89,5 +98,7 @@ def test_pinned_to_one_sender_the_others_are_not_even_received(receiver: UdpRece
 
 def test_a_port_that_is_taken_is_bad_input(receiver: UdpReceiver) -> None:
     host, port = receiver.address
-    with pytest.raises(InputError, match=f"UDP {host}:{port}: cannot listen there: Address already in use"):
+    with pytest.raises(
+        InputError, match=f"UDP {host}:{port}: cannot listen there: Address already in use"
+    ):
         UdpReceiver(host, port)

@@ -27,7 +27,12 @@ from atlas_cueing.vehicles import (
 from ..motions import Motion, angles, forces, rates, rms
 
 ROLL = SignalFlight(
-    (Signal("roll_rate", "sine", 1.0, 0.2, 2.5, 0.25, 4.0), Signal("force_y", "sine", 2.0, 0.0, 2.0, 0.25, 6.0)), 120.0, 3.0
+    (
+        Signal("roll_rate", "sine", 1.0, 0.2, 2.5, 0.25, 4.0),
+        Signal("force_y", "sine", 2.0, 0.0, 2.0, 0.25, 6.0),
+    ),
+    120.0,
+    3.0,
 )
 
 
@@ -39,7 +44,9 @@ class Counted:
 
     @property
     def state(self) -> VehicleState:
-        return VehicleState(self.steps * self.dt, (1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, -9.8))
+        return VehicleState(
+            self.steps * self.dt, (1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, -9.8)
+        )
 
     def advance(self) -> bool:
         if (self.steps + 1) * self.dt >= self._fails:
@@ -48,7 +55,9 @@ class Counted:
         return True
 
 
-def reads(source: Source, times: list[float], advance: Callable[[float], bool] = lambda _: True) -> list[SourceReading]:
+def reads(
+    source: Source, times: list[float], advance: Callable[[float], bool] = lambda _: True
+) -> list[SourceReading]:
     return [source.read(t, advance(t)) for t in times]
 
 
@@ -91,7 +100,13 @@ def test_between_its_steps_it_is_near_the_truth(loop_hz: float) -> None:
 
 def test_intake_of_a_source_that_is_never_late() -> None:
     for intake in reads(VehicleSource(SignalVehicle(ROLL)), ticks(1.0)):
-        assert (intake.age, intake.dropped, intake.bad_in_a_row, intake.jumped, intake.over) == (0.0, 0, 0, False, False)
+        assert (intake.age, intake.dropped, intake.bad_in_a_row, intake.jumped, intake.over) == (
+            0.0,
+            0,
+            0,
+            False,
+            False,
+        )
         assert intake.reason == ""
 
 
@@ -168,7 +183,9 @@ def test_a_jump_is_told_once_and_not_turned_through() -> None:
 def test_the_sign_of_the_attitude_never_changes() -> None:
     motion = Motion(3.0)
     states = [motion.at(k / 60.0) for k in range(150)]
-    flipped = [replace(s, q_NB=tuple((-1.0) ** k * c for c in s.q_NB)) for k, s in enumerate(states)]
+    flipped = [
+        replace(s, q_NB=tuple((-1.0) ** k * c for c in s.q_NB)) for k, s in enumerate(states)
+    ]
     got = vehicles(reads(VehicleSource(RecordedVehicle(flipped)), ticks(2.4)))
     for a, b in pairwise(got):
         assert sum(x * y for x, y in zip(a.q_NB, b.q_NB, strict=True)) > 0.9
@@ -197,7 +214,9 @@ def test_a_real_model_is_read_between_its_steps() -> None:
 def test_jumps_back_and_forth_are_each_told() -> None:
     level = VehicleState(0.0, (1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, -9.8))
     turned = multiply(level.q_NB, exp((0.0, 0.5, 0.0)))
-    states = [replace(level, time=0.1 * k, q_NB=turned if k % 4 == 3 else level.q_NB) for k in range(9)]
+    states = [
+        replace(level, time=0.1 * k, q_NB=turned if k % 4 == 3 else level.q_NB) for k in range(9)
+    ]
     intakes = reads(VehicleSource(RecordedVehicle(states)), ticks(0.75))
     assert sum(intake.jumped for intake in intakes) == 4
     assert {round(abs(s.q_NB[2]), 6) for s in vehicles(intakes)} == {0.0, round(abs(turned[2]), 6)}

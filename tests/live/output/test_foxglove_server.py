@@ -47,14 +47,21 @@ class Viewer:
     """What Foxglove does: subscribe to all topics and decode what comes by the schemas that are told."""
 
     def __init__(self, url: str) -> None:
-        self.socket: ClientConnection = connect(url, subprotocols=[PROTOCOL], proxy=None, max_size=None, open_timeout=PATIENCE)
+        self.socket: ClientConnection = connect(
+            url, subprotocols=[PROTOCOL], proxy=None, max_size=None, open_timeout=PATIENCE
+        )
         self.info = json.loads(self.socket.recv(timeout=PATIENCE))
         self.channels: dict[int, dict[str, Any]] = {}
         while len(self.channels) < len(TOPICS):
-            self.channels |= {c["id"]: c for c in json.loads(self.socket.recv(timeout=PATIENCE))["channels"]}
+            self.channels |= {
+                c["id"]: c for c in json.loads(self.socket.recv(timeout=PATIENCE))["channels"]
+            }
         ids = [{"id": 100 + k, "channelId": k} for k in self.channels]
         self.socket.send(json.dumps({"op": "subscribe", "subscriptions": ids}))
-        self.classes = {k: message_class(c["schemaName"], base64.b64decode(c["schema"])) for k, c in self.channels.items()}
+        self.classes = {
+            k: message_class(c["schemaName"], base64.b64decode(c["schema"]))
+            for k, c in self.channels.items()
+        }
 
     def next(self) -> tuple[str, int, bytes]:
         """Topic, log time and content of the next message."""
@@ -115,7 +122,9 @@ class TestTheFeed:
         recorder.close("ok", "")
         with (tmp_path / "run.mcap").open("rb") as stream:
             messages = make_reader(stream).iter_messages()
-            logged = {(channel.topic, message.log_time): message.data for _, channel, message in messages}
+            logged = {
+                (channel.topic, message.log_time): message.data for _, channel, message in messages
+            }
         assert written == logged
         assert len(written) == 5 * len(TOPICS)
 
@@ -131,7 +140,10 @@ class TestTheFeed:
         assert feed.new(10.1 + REPEAT_S) == []
 
     def test_of_a_backlog_only_the_newest_half_is_looked_at(self, ring: Ring) -> None:
-        """A server that was held up has no use for what is old; and the writer is about to overwrite it."""
+        """A server that was held up has no use for what is old.
+
+        And the writer is about to overwrite it.
+        """
         feed, writer = Feed(ring, HEAD, STARTED_NS), LiveWriter(ring)
         for k in range(ring.slots - 2):
             writer.status(k, "running", str(k))
@@ -159,10 +171,17 @@ class TestTheServer:
         row = iter(live_row(tick, timing))
         for topic in LIVE_TOPICS[:-1]:
             message = viewer.decoded(topic.name, shown[topic.name][1])
-            assert [getattr(message, field) for field in topic.fields] == [next(row) for _ in topic.fields]
+            assert [getattr(message, field) for field in topic.fields] == [
+                next(row) for _ in topic.fields
+            ]
         stage, cabin = viewer.decoded("/tf", shown["/tf"][1]).transforms
         assert (stage.translation.x, stage.translation.y, stage.translation.z) == tick.motion.p_WS_W
-        assert (cabin.rotation.w, cabin.rotation.x, cabin.rotation.y, cabin.rotation.z) == tick.motion.q_WS
+        assert (
+            cabin.rotation.w,
+            cabin.rotation.x,
+            cabin.rotation.y,
+            cabin.rotation.z,
+        ) == tick.motion.q_WS
         viewer.socket.close()
 
     def test_a_late_viewer_hears_the_state(self, ring: Ring, server: FoxgloveProcess) -> None:
@@ -170,10 +189,17 @@ class TestTheServer:
         viewer = Viewer(server.url)
         topic, _, content = viewer.next()
         state = viewer.decoded(topic, content)
-        assert (topic, state.time_s, state.state, state.reason) == ("/status", 3.0, "holding", "no input")
+        assert (topic, state.time_s, state.state, state.reason) == (
+            "/status",
+            3.0,
+            "holding",
+            "no input",
+        )
         viewer.socket.close()
 
-    def test_ticks_are_thinned_to_what_a_screen_draws(self, ring: Ring, server: FoxgloveProcess) -> None:
+    def test_ticks_are_thinned_to_what_a_screen_draws(
+        self, ring: Ring, server: FoxgloveProcess
+    ) -> None:
         viewer = Viewer(server.url)
         writer = LiveWriter(ring)
         viewer.shown(writer, 0.5)
@@ -187,7 +213,9 @@ class TestTheServer:
     def test_web_pages_of_strangers_are_kept_out(self, server: FoxgloveProcess) -> None:
         with pytest.raises(InvalidStatus, match="403"):
             connect(server.url, subprotocols=[PROTOCOL], origin="https://evil.example", proxy=None)
-        with connect(server.url, subprotocols=[PROTOCOL], origin="https://app.foxglove.dev", proxy=None) as page:
+        with connect(
+            server.url, subprotocols=[PROTOCOL], origin="https://app.foxglove.dev", proxy=None
+        ) as page:
             assert json.loads(page.recv(timeout=PATIENCE))["op"] == "serverInfo"
 
     def test_a_client_that_does_not_read_and_one_that_vanishes_hold_up_nobody(
@@ -210,7 +238,9 @@ class TestTheServer:
         viewer = Viewer(server.url)
         viewer.shown(LiveWriter(ring), 0.5)
         found = sockets(server.pid)
-        listening = [address for table, address, _, state in found if table == "tcp" and state == "0A"]
+        listening = [
+            address for table, address, _, state in found if table == "tcp" and state == "0A"
+        ]
         assert len(listening) == 2
         assert all(table == "tcp" and local.startswith("127.") for table, local, _, _ in found)
         assert all(remote.startswith("127.") for _, _, remote, state in found if state != "0A")
@@ -224,7 +254,11 @@ class TestTheServer:
         writer.end(1.0, "ok", "over")
         until(lambda: not server.alive)
         assert server.close()
-        told = [viewer.decoded(topic, content).reason for topic, _, content in rest(viewer) if topic == "/status"]
+        told = [
+            viewer.decoded(topic, content).reason
+            for topic, _, content in rest(viewer)
+            if topic == "/status"
+        ]
         assert told == ["over"]
 
     def test_it_goes_when_the_loop_is_killed(self, ring: Ring) -> None:
@@ -244,7 +278,9 @@ class TestTheServer:
         os.close(tell)
         until(lambda: not running(pid))
 
-    def test_a_port_that_is_taken_is_told_before_anything_starts(self, ring: Ring, server: FoxgloveProcess) -> None:
+    def test_a_port_that_is_taken_is_told_before_anything_starts(
+        self, ring: Ring, server: FoxgloveProcess
+    ) -> None:
         with pytest.raises(InputError, match=f"TCP 127.0.0.1:{server.port}: cannot listen there"):
             FoxgloveProcess(ring, server.port, HEAD, STARTED_NS)
 

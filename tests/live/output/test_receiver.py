@@ -31,7 +31,9 @@ TOOL = Path(__file__).parents[3] / "tools" / "receive_setpoints"
 
 def packet(k: int, session: int = 7, key: bytes = b"", command: Command | None = None) -> bytes:
     """The one of tick k, at START + k STEP."""
-    return encode(session, k, k * STEP, START + k * STEP + LEAD, 2, command or swinging(k * STEP), key)
+    return encode(
+        session, k, k * STEP, START + k * STEP + LEAD, 2, command or swinging(k * STEP), key
+    )
 
 
 def following(ticks: int, key: bytes = b"") -> SetPointReceiver:
@@ -65,7 +67,9 @@ class TestFollowing:
         command = following(30).at(START + LEAD + t)
         true = swinging(t)
         assert close(
-            replace(command, wheel_acceleration=true.wheel_acceleration, a_WS_W=true.a_WS_W), true, 2.1e-9 * 16 * 5 + 1e-9
+            replace(command, wheel_acceleration=true.wheel_acceleration, a_WS_W=true.a_WS_W),
+            true,
+            2.1e-9 * 16 * 5 + 1e-9,
         )
         assert close(command, true, STEP**2 / 8.0 * 40.0 + 1e-9)
 
@@ -77,7 +81,9 @@ class TestFollowing:
         assert command is not None
         assert command.wheel_speed == pytest.approx(last.wheel_speed)
         assert command.v_WS_W == pytest.approx(last.v_WS_W)
-        assert command.p_WS_W == pytest.approx([p + v * t for p, v in zip(last.p_WS_W, last.v_WS_W, strict=True)])
+        assert command.p_WS_W == pytest.approx(
+            [p + v * t for p, v in zip(last.p_WS_W, last.v_WS_W, strict=True)]
+        )
         assert receiver.tripped == ""
 
     def test_all_of_a_burst_is_kept(self) -> None:
@@ -93,8 +99,14 @@ class TestRefusing:
     def test_a_packet_sent_again_or_out_of_order(self) -> None:
         receiver = following(3)
         now = START + 3 * STEP
-        assert receiver.take(packet(2), SENDER, now) == "packet 2 comes after 2: out of order or sent again"
-        assert receiver.take(packet(0), SENDER, now) == "packet 0 comes after 2: out of order or sent again"
+        assert (
+            receiver.take(packet(2), SENDER, now)
+            == "packet 2 comes after 2: out of order or sent again"
+        )
+        assert (
+            receiver.take(packet(0), SENDER, now)
+            == "packet 0 comes after 2: out of order or sent again"
+        )
         assert receiver.take(packet(4), SENDER, now) == ""
         assert "comes after 4" in receiver.take(packet(3), SENDER, now)
         assert (receiver.good, receiver.refused) == (4, 3)
@@ -103,24 +115,35 @@ class TestRefusing:
         receiver = SetPointReceiver(WHEELS, STAGE)
         assert "packet of 3 bytes" in receiver.take(b"bad", ("127.0.0.1", 9), START)
         assert receiver.take(packet(0), SENDER, START) == ""
-        assert "from another sender, 127.0.0.1:9," in receiver.take(packet(1), ("127.0.0.1", 9), START)
+        assert "from another sender, 127.0.0.1:9," in receiver.take(
+            packet(1), ("127.0.0.1", 9), START
+        )
         assert "from another sender" in receiver.take(packet(1, session=8), SENDER, START)
         assert receiver.take(packet(1), SENDER, START) == ""
 
     def test_a_time_that_cannot_be(self) -> None:
         receiver = SetPointReceiver(WHEELS, STAGE)
-        assert "valid from 0.208 s ahead, allowed: 0.1 s" in receiver.take(packet(0), SENDER, START - 0.2)
-        assert "valid from 0.192 s ago, allowed: 0.1 s" in receiver.take(packet(0), SENDER, START + 0.2)
+        assert "valid from 0.208 s ahead, allowed: 0.1 s" in receiver.take(
+            packet(0), SENDER, START - 0.2
+        )
+        assert "valid from 0.192 s ago, allowed: 0.1 s" in receiver.take(
+            packet(0), SENDER, START + 0.2
+        )
         assert receiver.take(packet(1), SENDER, START) == ""
         same = encode(7, 2, 0.0, START + STEP + LEAD, 2, REST)
-        assert receiver.take(same, SENDER, START) == "packet 2 is not valid from later than the one before"
+        assert (
+            receiver.take(same, SENDER, START)
+            == "packet 2 is not valid from later than the one before"
+        )
 
     def test_a_forged_packet_changes_nothing(self) -> None:
         key = bytes(16)
         receiver = following(3, key)
         before = receiver.at(START + 2 * STEP)
         assert "as the receiver has a key" in receiver.take(packet(3), SENDER, START + 2 * STEP)
-        assert "wrong check" in receiver.take(packet(3, key=bytes(range(16))), SENDER, START + 2 * STEP)
+        assert "wrong check" in receiver.take(
+            packet(3, key=bytes(range(16))), SENDER, START + 2 * STEP
+        )
         assert receiver.at(START + 2 * STEP) == before
 
     def test_a_key_of_a_wrong_size(self) -> None:
@@ -151,7 +174,10 @@ class TestTheWatchdog:
         """Nobody asked between: the packet itself finds the watchdog expired."""
         receiver = following(3)
         late = START + 2 * STEP + 0.15
-        assert receiver.take(packet(17), SENDER, late) == "stopped: no good set point for 0.150 s, allowed: 0.1 s; reset first"
+        assert (
+            receiver.take(packet(17), SENDER, late)
+            == "stopped: no good set point for 0.150 s, allowed: 0.1 s; reset first"
+        )
 
     def test_packets_that_all_come_late_trip_it_too(self) -> None:
         receiver = SetPointReceiver(WHEELS, STAGE)
@@ -173,13 +199,24 @@ class TestTheWatchdog:
             for v0, v, most in zip(before.wheel_speed, now.wheel_speed, WHEELS, strict=True):
                 assert abs(v - v0) <= most * dt * (1 + 1e-6)
                 assert abs(v) <= abs(v0)
-            for p0, v0, p, v, most in zip(before.p_WS_W, before.v_WS_W, now.p_WS_W, now.v_WS_W, STAGE, strict=True):
+            for p0, v0, p, v, most in zip(
+                before.p_WS_W, before.v_WS_W, now.p_WS_W, now.v_WS_W, STAGE, strict=True
+            ):
                 assert abs(v - v0) <= most * dt * (1 + 1e-6)
                 assert abs(v) <= abs(v0)
                 assert p - p0 == pytest.approx(0.5 * (v0 + v) * dt, abs=most * dt * dt)
             before = now
-        assert before.wheel_speed == before.v_WS_W == before.wheel_acceleration == before.a_WS_W == (0.0, 0.0, 0.0)
-        expected = [p + v * abs(v) / (2 * a) for p, v, a in zip(first.p_WS_W, first.v_WS_W, STAGE, strict=True)]
+        assert (
+            before.wheel_speed
+            == before.v_WS_W
+            == before.wheel_acceleration
+            == before.a_WS_W
+            == (0.0, 0.0, 0.0)
+        )
+        expected = [
+            p + v * abs(v) / (2 * a)
+            for p, v, a in zip(first.p_WS_W, first.v_WS_W, STAGE, strict=True)
+        ]
         assert before.p_WS_W == pytest.approx(expected, abs=1e-9)
 
     def test_it_is_latched_until_reset(self) -> None:
@@ -197,17 +234,27 @@ class TestTheWatchdog:
 
 class TestTheCommand:
     def test_it_tells_rate_lateness_and_the_trip_at_the_end(self) -> None:
-        done = received(20, "--duration", "3.0")  # a tenth of a second is sent, and up to three on a busy machine
+        # a tenth of a second is sent, and up to three on a busy machine
+        done = received(20, "--duration", "3.0")
         told = json.loads(done.stdout)
         assert done.returncode == 1, "the sender stops before the receiver does"
         assert "allowed: 0.1 s" in told["tripped"]
         assert told["good"] > 0
         assert told["rate_hz"] == round(told["good"] / 3.0, 2)
-        assert -1e3 * LEAD < told["lateness_p0_ms"] <= told["lateness_p50_ms"] <= told["lateness_p100_ms"]
+        assert (
+            -1e3 * LEAD
+            < told["lateness_p0_ms"]
+            <= told["lateness_p50_ms"]
+            <= told["lateness_p100_ms"]
+        )
 
     def test_nothing_received_is_no_success(self) -> None:
         done = subprocess.run(
-            [sys.executable, TOOL, "--port", "0", "--duration", "0.05"], capture_output=True, text=True, timeout=60, check=False
+            [sys.executable, TOOL, "--port", "0", "--duration", "0.05"],
+            capture_output=True,
+            text=True,
+            timeout=60,
+            check=False,
         )
         assert done.returncode == 1
         assert "good               0" in done.stdout
@@ -223,7 +270,11 @@ class TestTheCommand:
 
     def test_bad_usage(self) -> None:
         done = subprocess.run(
-            [sys.executable, TOOL, "--port", "70000"], capture_output=True, text=True, timeout=60, check=False
+            [sys.executable, TOOL, "--port", "70000"],
+            capture_output=True,
+            text=True,
+            timeout=60,
+            check=False,
         )
         assert (done.returncode, done.stdout) == (2, "")
         assert done.stderr.startswith("error: UDP 127.0.0.1:70000: cannot listen there")
@@ -235,13 +286,16 @@ def received(count: int, *arguments: str) -> subprocess.CompletedProcess[str]:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     command = [sys.executable, TOOL, "--port", str(port), "--json", *arguments]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
         sender, k, taken = SetPointSender("127.0.0.1", port), 0, 0
         while taken < count and k < 12_000:
             before = sender.unsent
             sender.send(k, k * 0.005, monotonic() + LEAD, 2, swinging(k * 0.005))
             sleep(0.005)
-            k, taken = k + 1, taken + 1 if sender.unsent == before else 0  # every other one is not taken while nobody listens
+            # every other one is not taken while nobody listens
+            k, taken = k + 1, taken + 1 if sender.unsent == before else 0
         sender.close()
         out, error = process.communicate(timeout=60.0)
     return subprocess.CompletedProcess(command, process.returncode, out, error)

@@ -74,8 +74,13 @@ class TestTheProcess:
         assert process.finish() == Recorded("ok", "still there", 0, 0)
 
     @pytest.mark.parametrize("seed", range(4))
-    def test_a_killed_loop_leaves_a_finished_log_with_all_its_ticks(self, path: Path, seed: int) -> None:
-        """SIGKILL at any moment of the loop; the recorder is its child, and alone in the world afterwards."""
+    def test_a_killed_loop_leaves_a_finished_log_with_all_its_ticks(
+        self, path: Path, seed: int
+    ) -> None:
+        """SIGKILL at any moment of the loop.
+
+        The recorder is its child, and alone in the world afterwards.
+        """
         last = killed(path, Random(seed).randrange(75, 125), os.kill)
         until(path.exists)
         log = read_log(path)
@@ -84,7 +89,9 @@ class TestTheProcess:
         assert last <= times(log)[-1]
         assert np.allclose(np.diff(times(log)), 1.0 / RATE)
 
-    def test_when_all_are_killed_the_part_has_all_but_a_tenth_of_a_second(self, tmp_path: Path) -> None:
+    def test_when_all_are_killed_the_part_has_all_but_a_tenth_of_a_second(
+        self, tmp_path: Path
+    ) -> None:
         """At any moment between two flushes, by a clock that waits for a recorder which a busy machine does not run."""
         lost = []
         for ticks in range(75, 145, 10):
@@ -121,7 +128,9 @@ class TestTheProcess:
         assert process.finish(0.1).result == "recorder_died"
         assert reaped(process.pid)
 
-    def test_a_full_disk_is_told_and_no_tick_waits(self, path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    def test_a_full_disk_is_told_and_no_tick_waits(
+        self, path: Path, capfd: pytest.CaptureFixture[str]
+    ) -> None:
         ring = live_ring(5.0, RATE)
         with largest_file(100_000):
             process = RecorderProcess(ring, live_recorder(path))
@@ -132,16 +141,22 @@ class TestTheProcess:
         ride(writer, 4 * RATE, 1000)
         told: list[str] = []
         until(
-            lambda: bool(told.append(capfd.readouterr().err) or "nothing more is recorded: cannot write log" in "".join(told))
+            lambda: bool(
+                told.append(capfd.readouterr().err)
+                or "nothing more is recorded: cannot write log" in "".join(told)
+            )
         )
         assert process.alive
         writer.end(0.5, "ok", "")
         recorded = process.finish()
         assert recorded.result == "recording_failed"
         assert recorded.lost == 0
-        assert recovered(path)[0].ticks >= recorded.ticks > 0  # a chunk may be whole though its index did not fit
+        # a chunk may be whole though its index did not fit
+        assert recovered(path)[0].ticks >= recorded.ticks > 0
 
-    def test_a_recorder_that_is_held_up_tells_the_gap_and_the_loop_runs_on(self, path: Path) -> None:
+    def test_a_recorder_that_is_held_up_tells_the_gap_and_the_loop_runs_on(
+        self, path: Path
+    ) -> None:
         """As by a slow disk, which a stopped process is like."""
         ring = Ring(256, live_ring(1.0, 1.0).size)
         process = RecorderProcess(ring, live_recorder(path))
@@ -179,14 +194,21 @@ class TestTheProcess:
         assert process.finish().result == "ok"
 
 
-def killed(path: Path, ticks: int, kill: Callable[[int, int], None], clock: SharedClock | None = None) -> float:
-    """Kill a loop with a recorder, or both, once so many ticks are in the ring; the time of the last one that was."""
+def killed(
+    path: Path, ticks: int, kill: Callable[[int, int], None], clock: SharedClock | None = None
+) -> float:
+    """Kill a loop with a recorder, or both, once so many ticks are in the ring.
+
+    The time of the last one that was.
+    """
     told, tell = os.pipe()
     with child(partial(run, path, tell, clock)) as loop:
         os.close(tell)
         heard = b""
         while len(heard) < 8 * ticks:
-            heard += os.read(told, 8 * ticks - len(heard)) or pytest.fail("the loop ended by itself")
+            heard += os.read(told, 8 * ticks - len(heard)) or pytest.fail(
+                "the loop ended by itself"
+            )
         kill(loop, signal.SIGKILL)
     heard += os.read(told, 65536)  # a pipe holds no more
     os.close(told)
@@ -194,7 +216,10 @@ def killed(path: Path, ticks: int, kill: Callable[[int, int], None], clock: Shar
 
 
 def run(path: Path, tell: int, clock: SharedClock | None) -> None:
-    """A loop with a recorder, in a group of its own; writes the time of each tick that is in the ring to `tell`."""
+    """A loop with a recorder, in a group of its own.
+
+    Writes the time of each tick that is in the ring to `tell`.
+    """
     os.setpgid(0, 0)
     if clock:
         recorder_process.monotonic, recorder_process.sleep = clock.now, clock.sleep  # type: ignore[attr-defined]
@@ -211,7 +236,10 @@ def run(path: Path, tell: int, clock: SharedClock | None) -> None:
 
 
 def last_kept(path: Path) -> float:
-    """Time of the last tick in what is left of a log, without a gap before it, s; -inf when nothing is."""
+    """Time of the last tick in what is left of a log, without a gap before it, s.
+
+    -inf when nothing is.
+    """
     try:
         _, log = recovered(path)
     except LogError:

@@ -39,13 +39,17 @@ class TestTheLog:
         assert recorder.step(0.4) == Recorded("ok", "over", 40, 0)
         log = read_log(path)
         given = np.array(rows)
-        read = np.hstack([log.tables[topic.name].values for topic in LIVE_TOPICS if topic.name != "/felt"])
+        read = np.hstack(
+            [log.tables[topic.name].values for topic in LIVE_TOPICS if topic.name != "/felt"]
+        )
         assert read.tobytes() == given.tobytes()
         assert len(log.tables["/felt"].values) == 40
         assert log.attachments == ATTACHMENTS
         assert (log.metadata["result"], log.metadata["reason"]) == ("ok", "over")
 
-    def test_log_time_is_the_wall_clock_of_the_start_and_the_real_time_since(self, path: Path) -> None:
+    def test_log_time_is_the_wall_clock_of_the_start_and_the_real_time_since(
+        self, path: Path
+    ) -> None:
         _, writer, recorder = following(path)
         for k in range(3):
             writer.tick(*live_tick(k / RATE))
@@ -64,7 +68,11 @@ class TestTheLog:
         writer.status(3.2, "holding", "no input for 0.1 s")
         writer.end(3.2, "ok", "")
         recorder.step(0.0)
-        assert lines == ["   0.00 s  parked", "   0.00 s  running  engaged by hand", "   3.20 s  holding  no input for 0.1 s"]
+        assert lines == [
+            "   0.00 s  parked",
+            "   0.00 s  running  engaged by hand",
+            "   3.20 s  holding  no input for 0.1 s",
+        ]
         expected = (Status(0.0, "parked", ""), Status(0.0, "running", "engaged by hand"))
         assert read_log(path).statuses == (*expected, Status(3.2, "holding", "no input for 0.1 s"))
 
@@ -104,13 +112,17 @@ class TestTheLog:
         )
         log = read_log(path)
         assert log.metadata["reason"] == recorded.reason
-        gap = Status(0.0, "recording_gap", f"{recorded.lost} messages lost: the log is written too slowly")
+        gap = Status(
+            0.0, "recording_gap", f"{recorded.lost} messages lost: the log is written too slowly"
+        )
         assert log.statuses == (gap,)
         assert len(times(log)) == recorded.ticks
         assert times(log)[0] == 0.0
         assert times(log)[1] == pytest.approx((recorded.lost + 1) / RATE)
 
-    def test_ticks_count_when_they_are_in_the_log_however_many_come_at_once(self, path: Path) -> None:
+    def test_ticks_count_when_they_are_in_the_log_however_many_come_at_once(
+        self, path: Path
+    ) -> None:
         """A thousand ticks in one step, and a disk that is full after some chunks of them."""
         ring = live_ring(2.0, 1000.0)
         recorder = RingRecorder(ring, live_recorder(path), say=lambda _: None)
@@ -129,12 +141,16 @@ class TestTheLog:
         writer.tick(*live_tick(0.5))
         recorder.step(0.0)
         recorded = recorder.orphaned()
-        assert recorded == Recorded("loop_killed", "the loop ended without a word after 0.500 s", 1, 0)
+        assert recorded == Recorded(
+            "loop_killed", "the loop ended without a word after 0.500 s", 1, 0
+        )
         log = read_log(path)
         assert log.metadata["result"] == "loop_killed"
         assert log.statuses == (Status(0.5, "stopped", recorded.reason),)
 
-    def test_a_log_that_cannot_be_written_is_told_once_and_the_ring_goes_on(self, path: Path) -> None:
+    def test_a_log_that_cannot_be_written_is_told_once_and_the_ring_goes_on(
+        self, path: Path
+    ) -> None:
         lines: list[str] = []
         _, writer, recorder = following(path, lines)
         with largest_file(100_000):
@@ -153,12 +169,20 @@ class TestTheLog:
         assert recovered(path)[0].ticks == recorded.ticks > 0
 
 
-def following(path: Path, lines: list[str] | None = None, *, announce: bool = False) -> tuple[Ring, LiveWriter, RingRecorder]:
+def following(
+    path: Path, lines: list[str] | None = None, *, announce: bool = False
+) -> tuple[Ring, LiveWriter, RingRecorder]:
     ring = live_ring(0.1, 100.0)
     say = (lambda _: None) if lines is None else lines.append
-    return ring, LiveWriter(ring), RingRecorder(ring, live_recorder(path), announce=announce, say=say)
+    return (
+        ring,
+        LiveWriter(ring),
+        RingRecorder(ring, live_recorder(path), announce=announce, say=say),
+    )
 
 
 def log_times(path: Path, topic: str) -> list[int]:
     with path.open("rb") as stream:
-        return [message.log_time for _, _, message in make_reader(stream).iter_messages(topics=[topic])]
+        return [
+            message.log_time for _, _, message in make_reader(stream).iter_messages(topics=[topic])
+        ]

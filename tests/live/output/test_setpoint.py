@@ -44,16 +44,28 @@ class TestThePacket:
         _keys,
     )
     def test_what_is_decoded_is_what_was_encoded(
-        self, session: int, sequence: int, microseconds: int, state: int, command: Command, key: bytes
+        self,
+        session: int,
+        sequence: int,
+        microseconds: int,
+        state: int,
+        command: Command,
+        key: bytes,
     ) -> None:
         packet = encode(session, sequence, command.time, microseconds * 1e-6, state, command, key)
         point = decode(packet, key)
-        assert replace(point, valid_from=0.0) == SetPoint(session, sequence, 0.0, LIVE_STATES[state], command)
+        assert replace(point, valid_from=0.0) == SetPoint(
+            session, sequence, 0.0, LIVE_STATES[state], command
+        )
         assert point.valid_from == pytest.approx(microseconds * 1e-6, abs=2e-9, rel=1e-15)
 
     def test_every_field_lies_where_the_table_says(self) -> None:
         """Read as a stranger would, from the offsets and types of the documentation alone."""
-        rows = re.findall(r"^\|\s+(\d+) \| (\w+?)(?:\[(\d+)\])?\s+\| ([^:|]+)", setpoint.__doc__ or "", re.MULTILINE)
+        rows = re.findall(
+            r"^\|\s+(\d+) \| (\w+?)(?:\[(\d+)\])?\s+\| ([^:|]+)",
+            setpoint.__doc__ or "",
+            re.MULTILINE,
+        )
         codes = {"char": "s", "uint8": "B", "uint64": "Q", "int64": "q", "double": "d"}
         command = swinging(0.7)
         packet = encode(11, 12, 0.7, 13.000000014, 3, command)
@@ -64,7 +76,9 @@ class TestThePacket:
             read[name.split(" ")[0] + name.partition(" ")[2][:9]] = layout.unpack_from(packet, end)
             end += layout.size
         assert end == len(packet) == SIZE
-        magic, version, kind, state, zero, session, sequence, valid, time, *vectors, check = read.values()
+        magic, version, kind, state, zero, session, sequence, valid, time, *vectors, check = (
+            read.values()
+        )
         assert (magic, version, kind, state, zero) == ((b"ATSP",), (1,), (0,), (3,), (0,))
         assert (session, sequence, valid, time) == ((11,), (12,), (13_000_000_014,), (0.7,))
         c = command
@@ -73,7 +87,9 @@ class TestThePacket:
 
     def test_the_states_of_the_table_are_those_of_the_loop(self) -> None:
         line = next(line for line in (setpoint.__doc__ or "").splitlines() if "state: " in line)
-        assert re.findall(r"(\d) (\w+)", line.partition("state: ")[2]) == [(str(k), s) for k, s in enumerate(LIVE_STATES)]
+        assert re.findall(r"(\d) (\w+)", line.partition("state: ")[2]) == [
+            (str(k), s) for k, s in enumerate(LIVE_STATES)
+        ]
 
     def test_with_a_key_the_check_is_keyed_blake2s(self) -> None:
         packet = encode(1, 2, 0.0, 3.0, 0, REST, KEY)
@@ -97,19 +113,28 @@ class TestThePacket:
         [
             (b"", "packet of 0 bytes, allowed: 176"),
             (encode(1, 2, 0.0, 3.0, 0, REST) + b"x", "packet of 177 bytes, allowed: 176"),
-            (b"XXXX" + encode(1, 2, 0.0, 3.0, 0, REST)[4:], "packet starts with b'XXXX', allowed: b'ATSP'"),
+            (
+                b"XXXX" + encode(1, 2, 0.0, 3.0, 0, REST)[4:],
+                "packet starts with b'XXXX', allowed: b'ATSP'",
+            ),
             (b"ATSP\x02" + encode(1, 2, 0.0, 3.0, 0, REST)[5:], "packet of version 2, allowed: 1"),
             (
                 encode(1, 2, 0.0, 3.0, 0, REST)[:-1] + b"x",
                 "packet 2 has a wrong check: it is damaged, or its sender has another key",
             ),
             (encode(1, 2, 0.0, 3.0, 7, REST), "packet 2 has state 7, allowed: 0 <= state <= 6"),
-            (encode(1, 2, nan, 3.0, 0, REST), "packet 2 has nan as number 0, allowed: finite numbers"),
+            (
+                encode(1, 2, nan, 3.0, 0, REST),
+                "packet 2 has nan as number 0, allowed: finite numbers",
+            ),
             (
                 encode(1, 2, 0.0, 3.0, 0, replace(REST, a_WS_W=(0.0, 0.0, -inf))),
                 "packet 2 has -inf as number 15, allowed: finite numbers",
             ),
-            (encode(1, 2, 0.0, 3.0, 0, REST, KEY), "packet has check 1, allowed: 0, as the receiver has no key"),
+            (
+                encode(1, 2, 0.0, 3.0, 0, REST, KEY),
+                "packet has check 1, allowed: 0, as the receiver has no key",
+            ),
         ],
     )
     def test_the_error_says_what_is_wrong(self, packet: bytes, message: str) -> None:
@@ -119,7 +144,9 @@ class TestThePacket:
     def test_a_key_cannot_be_avoided(self) -> None:
         """Neither by a packet without one, nor with another one, nor by saying so."""
         plain = encode(1, 2, 0.0, 3.0, 0, REST)
-        with pytest.raises(SetPointError, match="packet has check 0, allowed: 1, as the receiver has a key"):
+        with pytest.raises(
+            SetPointError, match="packet has check 0, allowed: 1, as the receiver has a key"
+        ):
             decode(plain, KEY)
         with pytest.raises(SetPointError, match="wrong check"):
             decode(plain[:5] + b"\x01" + plain[6:], KEY)
@@ -149,7 +176,9 @@ class TestTheSender:
             sender.close()
         assert len(sessions) == 2
 
-    def test_nobody_listening_is_counted_and_the_next_one_is_heard(self, packets: socket.socket) -> None:
+    def test_nobody_listening_is_counted_and_the_next_one_is_heard(
+        self, packets: socket.socket
+    ) -> None:
         address = packets.getsockname()
         packets.close()
         sender = SetPointSender(*address)
@@ -181,11 +210,17 @@ class TestTheSender:
 
     @pytest.mark.parametrize("host", ["192.0.2.1", "10.1.2.3"])
     def test_another_machine_needs_a_key(self, host: str) -> None:
-        message = f"set-point receiver {host} is not on this machine: allowed with a shared key only, or 127.0.0.1"
+        message = (
+            f"set-point receiver {host} is not on this machine: allowed with a shared key only, or"
+            " 127.0.0.1"
+        )
         with pytest.raises(InputError, match=f"^{re.escape(message)}$"):
             SetPointSender(host, 5600)
 
-    @pytest.mark.parametrize("host", ["239.1.2.3", "224.0.0.1", "0.0.0.0", "255.255.255.255", "drive", "localhost", "::1", ""])  # noqa: S104
+    @pytest.mark.parametrize(
+        "host",
+        ["239.1.2.3", "224.0.0.1", "0.0.0.0", "255.255.255.255", "drive", "localhost", "::1", ""],
+    )  # noqa: S104
     def test_groups_and_names_are_refused_even_with_a_key(self, host: str) -> None:
         with pytest.raises(InputError, match=r"set-point receiver|cannot be sent"):
             SetPointSender(host, 5600, KEY)
@@ -197,7 +232,9 @@ class TestTheSender:
 
     @pytest.mark.parametrize("size", [1, 15, 33])
     def test_a_key_of_a_wrong_size_is_refused_and_not_shown(self, size: int) -> None:
-        with pytest.raises(InputError, match=f"^shared key of {size} bytes, allowed: 16 <= bytes <= 32$"):
+        with pytest.raises(
+            InputError, match=f"^shared key of {size} bytes, allowed: 16 <= bytes <= 32$"
+        ):
             SetPointSender("127.0.0.1", 5600, b"s" * size)
 
 

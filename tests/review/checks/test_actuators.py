@@ -20,19 +20,32 @@ def test_review_has_the_platforms_matrices() -> None:
     """Its own arithmetic and the project's agree."""
     run = coning(2)
     geometry = run.platform.geometry()
-    assert run.wheels_from_sphere() == pytest.approx(np.array(geometry.wheels_from_sphere), rel=1e-14)
-    assert run.sphere_from_wheels() == pytest.approx(np.array(geometry.sphere_from_wheels), rel=1e-13)
+    assert run.wheels_from_sphere() == pytest.approx(
+        np.array(geometry.wheels_from_sphere), rel=1e-14
+    )
+    assert run.sphere_from_wheels() == pytest.approx(
+        np.array(geometry.sphere_from_wheels), rel=1e-13
+    )
 
 
 def test_shares() -> None:
     run = coning()
     shares = limit_shares(run)
-    wheels, stage = ["wheel_speed", "wheel_acceleration", "wheel_jerk"], ["stage_speed", "stage_acceleration", "stage_jerk"]
+    wheels, stage = (
+        ["wheel_speed", "wheel_acceleration", "wheel_jerk"],
+        [
+            "stage_speed",
+            "stage_acceleration",
+            "stage_jerk",
+        ],
+    )
     assert list(shares) == [*wheels, "stage_travel", *stage]
     assert shares["wheel_speed"] * 31.0 == pytest.approx(run.flight.wheel_speed)
     assert shares["stage_travel"][:, 2] == pytest.approx(0.0)
     t = run.flight.time[:-1] + 0.005
-    assert shares["stage_jerk"][:, 0] * 60.0 == pytest.approx(-0.2 * np.cos(t) + 0.8 * np.cos(2 * t), abs=1e-4)
+    assert shares["stage_jerk"][:, 0] * 60.0 == pytest.approx(
+        -0.2 * np.cos(t) + 0.8 * np.cos(2 * t), abs=1e-4
+    )
 
 
 @pytest.mark.parametrize(

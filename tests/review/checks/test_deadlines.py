@@ -30,7 +30,12 @@ def live(**columns: np.ndarray) -> RecordedRun:
         "state": np.full(count, 2.0),
     } | columns
     values = np.column_stack([table[name] for name in TIMING.fields])
-    return replace(run, log=replace(run.log, tables={**run.log.tables, TIMING.name: TopicColumns(TIMING.fields, values)}))
+    return replace(
+        run,
+        log=replace(
+            run.log, tables={**run.log.tables, TIMING.name: TopicColumns(TIMING.fields, values)}
+        ),
+    )
 
 
 def test_a_run_without_timing_is_not_live() -> None:
@@ -54,7 +59,9 @@ def test_a_wrong_number_of_missed_deadlines(count: int) -> None:
 
 def test_a_clock_that_slips_by_ten_microseconds() -> None:
     at = np.arange(601)
-    (found,) = check_deadlines(live(elapsed_s=0.01 * (at + MISSED * (at > MISSED_AT)) + 1e-5 * (at > 400)))
+    (found,) = check_deadlines(
+        live(elapsed_s=0.01 * (at + MISSED * (at > MISSED_AT)) + 1e-5 * (at > 400))
+    )
     assert found.time == pytest.approx(4.01)
     assert "difference = 1" in found.text
 

@@ -25,10 +25,16 @@ def test_a_head_off_the_centre_agrees_with_what_the_recorder_writes() -> None:
     rider = run.platform.rider.model_copy(update={"head_m": (0.1, -0.2, 0.4)})
     off = replace(run, platform=run.platform.model_copy(update={"rider": rider}))
     f = run.flight
-    force, rate = felt(f.motion_q_WS, f.motion_w_W, f.motion_alpha_W, f.motion_a_W, (0.1, -0.2, 0.4))
+    force, rate = felt(
+        f.motion_q_WS, f.motion_w_W, f.motion_alpha_W, f.motion_a_W, (0.1, -0.2, 0.4)
+    )
     assert felt_again(off)[0] == pytest.approx(force, abs=1e-12)
     assert felt_again(off)[1] == pytest.approx(rate, abs=1e-12)
-    assert {finding.place for finding in check_felt_force(off)} >= {"/felt fx_m_s2", "/felt fy_m_s2", "/felt fz_m_s2"}
+    assert {finding.place for finding in check_felt_force(off)} >= {
+        "/felt fx_m_s2",
+        "/felt fy_m_s2",
+        "/felt fz_m_s2",
+    }
 
 
 @pytest.mark.parametrize("angle", [1e-9, 1e-4, 1.0, 3.0, np.pi])
@@ -45,7 +51,9 @@ def test_the_angle_is_judged_near_zero_and_near_half_a_turn(angle: float) -> Non
     table = run.log.tables["/felt"]
     values = table.values.copy()
     values[:, -1] = expected
-    run = replace(run, log=replace(run.log, tables={**run.log.tables, "/felt": replace(table, values=values)}))
+    run = replace(
+        run, log=replace(run.log, tables={**run.log.tables, "/felt": replace(table, values=values)})
+    )
     assert check_felt_force(run) == []
     values[100, -1] += 1e-6
     (found,) = check_felt_force(run)

@@ -38,7 +38,10 @@ def test_any_jerk_keeps_the_bounds(seed: int) -> None:
 
 
 def test_the_worst_jerk_reaches_them() -> None:
-    """Full jerk one way for half a tick and back is worst for the speed; for the way it changes where t (1 - t) = 1/6."""
+    """Full jerk one way for half a tick and back is worst for the speed.
+
+    For the way it changes where t (1 - t) = 1/6.
+    """
     middle = np.where(np.arange(FINE) < FINE // 2, 1.0, -1.0)
     speed, speed_bound, _, _ = errors(middle, 0.1, 0.0, 0.0)
     assert speed == pytest.approx(speed_bound, rel=1e-9)

@@ -11,7 +11,9 @@ from atlas_cueing.review.own_rotations import from_vector, product
 from ..runs import coning, with_flight
 
 
-def lagging(angle: float, distance: float, limited: tuple[float, float], axis: int = 1) -> list[tuple[str, float | None]]:
+def lagging(
+    angle: float, distance: float, limited: tuple[float, float], axis: int = 1
+) -> list[tuple[str, float | None]]:
     """The run whose cue is ahead from 2 s to 3 s."""
     run = coning()
     rows = (run.flight.time >= 2.0) & (run.flight.time < 3.0)
@@ -23,7 +25,9 @@ def lagging(angle: float, distance: float, limited: tuple[float, float], axis: i
         cue_p_W=run.flight.cue_p_W + distance * ahead,
         limited=np.where(rows[:, None], np.array(limited), 0.0),
     )
-    return [(finding.place, finding.time) for finding in check_limited_flags(with_flight(run, flight))]
+    return [
+        (finding.place, finding.time) for finding in check_limited_flags(with_flight(run, flight))
+    ]
 
 
 def test_a_run_that_keeps_up() -> None:

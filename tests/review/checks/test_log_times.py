@@ -26,14 +26,21 @@ def run(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
     ticks = tumble(120, 100.0)
     live = request.param == "live"
     recorder = McapRecorder(
-        path, head_S=HEAD, metadata={}, attachments=_platform(), chunk_ticks=17, started_ns=STARTED if live else None
+        path,
+        head_S=HEAD,
+        metadata={},
+        attachments=_platform(),
+        chunk_ticks=17,
+        started_ns=STARTED if live else None,
     )
     ring = live_ring(10.0, 100.0)
     reader, writer = RingReader(ring), LiveWriter(ring)
     for k, tick in enumerate(ticks):
         if live:
             time = tick.vehicle.time
-            writer.tick(tick, Timing(time, time + 0.03 * (k > LATE), 1e-5, 1e-4, 0.0, 3.0 * (k > LATE), 2.0))
+            writer.tick(
+                tick, Timing(time, time + 0.03 * (k > LATE), 1e-5, 1e-4, 0.0, 3.0 * (k > LATE), 2.0)
+            )
         else:
             recorder.append(tick)
     for kind, data in reader.messages():
@@ -46,7 +53,11 @@ def run(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 def _platform() -> dict[str, bytes]:
     import tomli_w
 
-    return {"platform.toml": tomli_w.dumps(load_platform("atlas-2.9m").model_dump(exclude_none=True)).encode()}
+    return {
+        "platform.toml": (
+            tomli_w.dumps(load_platform("atlas-2.9m").model_dump(exclude_none=True)).encode()
+        )
+    }
 
 
 def test_a_log_as_recorded(run: RecordedRun) -> None:
@@ -69,9 +80,15 @@ def test_a_log_time_that_is_off_by_two_nanoseconds(run: RecordedRun, topic: str)
 
 def test_log_times_of_another_epoch(run: RecordedRun) -> None:
     """All of them an hour later: wrong for simulated time, and another start of a live run."""
-    shifted = {t: replace(x, log_times=x.log_times + np.uint64(3600 * 10**9)) for t, x in run.log.tables.items()}
+    shifted = {
+        t: replace(x, log_times=x.log_times + np.uint64(3600 * 10**9))
+        for t, x in run.log.tables.items()
+    }
     found = {
-        finding.place for finding in check_log_times(with_tables(replace(run, log=replace(run.log, transforms=None)), **shifted))
+        finding.place
+        for finding in check_log_times(
+            with_tables(replace(run, log=replace(run.log, transforms=None)), **shifted)
+        )
     }
     live = "/timing" in run.log.tables
     assert found == (set() if live else {f"{topic} log_time" for topic in run.log.tables})
@@ -84,7 +101,10 @@ def test_a_transform_that_is_not_the_motion(run: RecordedRun) -> None:
     values[5, 0] += 1e-12
     values[6, 4] = np.nextafter(values[6, 4], 2.0)
     found = check_log_times(with_transforms(run, replace(poses, values=values)))
-    assert [(f.check, f.place) for f in found] == [("differs from /motion", "/tf px_m"), ("differs from /motion", "/tf q_ws_x")]
+    assert [(f.check, f.place) for f in found] == [
+        ("differs from /motion", "/tf px_m"),
+        ("differs from /motion", "/tf q_ws_x"),
+    ]
 
 
 def test_a_transform_of_no_tick(run: RecordedRun) -> None:
@@ -100,7 +120,9 @@ def test_a_transform_of_no_tick(run: RecordedRun) -> None:
 def test_transforms_that_are_missing(run: RecordedRun, cut: slice) -> None:
     poses = run.log.transforms
     assert poses is not None
-    found = check_log_times(with_transforms(run, TopicColumns(poses.fields, poses.values[cut], poses.log_times[cut])))
+    found = check_log_times(
+        with_transforms(run, TopicColumns(poses.fields, poses.values[cut], poses.log_times[cut]))
+    )
     assert [f.check for f in found] == ["no /tf for too long"]
 
 

@@ -24,14 +24,19 @@ def test_a_true_motion_is_explained(dt: float) -> None:
 
 
 def test_what_is_left_is_of_fifth_order() -> None:
-    """A cone is smooth, so halving the step takes what is left down by 32; without the commutator it would be 8."""
+    """A cone is smooth, so halving the step takes what is left down by 32.
+
+    Without the commutator it would be 8.
+    """
     assert left(coning(101, 0.1)) / left(coning(201, 0.05)) == pytest.approx(32.0, rel=0.1)
 
 
 def test_body_rates_are_not_base_rates() -> None:
     run = coning()
-    body = replace(run.flight, motion_w_W=turned_back(run.flight.motion_q_WS, run.flight.motion_w_W))
-    (found, *_) = check_orientation(with_flight(run, body))
+    body = replace(
+        run.flight, motion_w_W=turned_back(run.flight.motion_q_WS, run.flight.motion_w_W)
+    )
+    found, *_ = check_orientation(with_flight(run, body))
     assert found.check == "orientation is not the integral of Omega"
 
 
@@ -51,7 +56,9 @@ def test_drift_is_told_as_an_angle() -> None:
     """1 mrad/s about the cabin's own x: after 6 s it is 6 mrad, however the cabin has turned meanwhile."""
     run = coning()
     extra = turned(run.flight.motion_q_WS, np.array([1e-3, 0.0, 0.0])) @ run.wheels_from_sphere().T
-    (found,) = check_orientation(with_flight(run, replace(run.flight, wheel_speed=run.flight.wheel_speed + extra)))
+    (found,) = check_orientation(
+        with_flight(run, replace(run.flight, wheel_speed=run.flight.wheel_speed + extra))
+    )
     size = float(found.text.split("drift = ")[1].split()[0])
     assert found.time is not None
     assert size == pytest.approx(1e-3 * found.time, rel=1e-3)

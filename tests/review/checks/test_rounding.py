@@ -51,11 +51,16 @@ def test_a_flight_with_rounded_times_is_cued_anew(flight: Path, tmp_path: Path, 
     [
         (lambda time: np.round(time, 3), "time differs from /motion"),
         (lambda time: time + 2e-6, "time differs from /motion"),
-        (lambda time: np.where(np.arange(len(time)) == 300, time + 1e-9, time), "time differs from /motion"),
+        (
+            lambda time: np.where(np.arange(len(time)) == 300, time + 1e-9, time),
+            "time differs from /motion",
+        ),
     ],
     ids=["ms", "late", "one tick"],
 )
-def test_what_is_no_rounding_is_found(flight: Path, tmp_path: Path, rounded: Rounded, check: str) -> None:
+def test_what_is_no_rounding_is_found(
+    flight: Path, tmp_path: Path, rounded: Rounded, check: str
+) -> None:
     found = review_log(corrupted(flight, tmp_path / "x.mcap", times(rounded, "/cue")))
     assert (check, "/cue time_s") in {(finding.check, finding.place) for finding in found.findings}
 

@@ -43,11 +43,15 @@ def test_a_jump_is_seen_from_its_bound_on(angle: float, count: int) -> None:
         ((), 1),
     ],
 )
-def test_a_jump_that_is_told_of_is_none(states: tuple[tuple[float, str, str], ...], count: int) -> None:
+def test_a_jump_that_is_told_of_is_none(
+    states: tuple[tuple[float, str, str], ...], count: int
+) -> None:
     assert len(check_status(with_states(jumped(0.1), *states))) == count
 
 
-@pytest.mark.parametrize("state", ["vehicle_failed", "FAULT_STOPPING", "interrupted", "STOPPED", "failed"])
+@pytest.mark.parametrize(
+    "state", ["vehicle_failed", "FAULT_STOPPING", "interrupted", "STOPPED", "failed"]
+)
 def test_states_of_failure(state: str) -> None:
     run = with_states(coning(), (0.0, "running", ""), (2.0, state, "why"))
     (found,) = check_status(run)
@@ -57,7 +61,9 @@ def test_states_of_failure(state: str) -> None:
 
 def test_the_result_is_told_once() -> None:
     run = with_states(coning(), (2.0, "vehicle_failed", "why"))
-    failed = replace(run, log=replace(run.log, metadata={"result": "vehicle_failed", "reason": "why"}))
+    failed = replace(
+        run, log=replace(run.log, metadata={"result": "vehicle_failed", "reason": "why"})
+    )
     assert [str(finding) for finding in check_status(failed)] == [
         "atlas.run: result: result = 'vehicle_failed', allowed: 'ok'; why"
     ]
@@ -65,7 +71,11 @@ def test_the_result_is_told_once() -> None:
 
 def test_other_states_are_notes() -> None:
     run = with_states(
-        coning(), (0.0, "running", ""), (1.0, "HOLDING", "input stale"), (2.0, "running", ""), (5.0, "PARKING", "")
+        coning(),
+        (0.0, "running", ""),
+        (1.0, "HOLDING", "input stale"),
+        (2.0, "running", ""),
+        (5.0, "PARKING", ""),
     )
     assert notes(run) == ["1.000000 to 2.000000 s HOLDING: input stale", "5.000000 s PARKING"]
     assert check_status(run) == []

@@ -14,7 +14,9 @@ from ..runs import coning, with_flight
 @pytest.mark.parametrize("start", [0.0, 3600.0])
 def test_even_time_is_clean_after_an_hour_too(dt: float, start: float) -> None:
     run = coning(500, dt)
-    assert check_timestamps(with_flight(run, replace(run.flight, time=start + run.flight.time))) == []
+    assert (
+        check_timestamps(with_flight(run, replace(run.flight, time=start + run.flight.time))) == []
+    )
 
 
 def test_each_topic_has_its_own_clock() -> None:
@@ -22,12 +24,16 @@ def test_each_topic_has_its_own_clock() -> None:
     table = run.log.tables["/felt"]
     values = table.values.copy()
     values[50, 0] += 1e-12
-    bad = replace(run, log=replace(run.log, tables={**run.log.tables, "/felt": replace(table, values=values)}))
+    bad = replace(
+        run, log=replace(run.log, tables={**run.log.tables, "/felt": replace(table, values=values)})
+    )
     (found,) = check_timestamps(bad)
     assert (found.check, found.place) == ("time differs from /motion", "/felt time_s")
 
 
-@pytest.mark.parametrize(("shift", "checks"), [(0.5 * UNEVEN, []), (3.0 * UNEVEN, ["uneven time"]), (0.9, ["gap"])])
+@pytest.mark.parametrize(
+    ("shift", "checks"), [(0.5 * UNEVEN, []), (3.0 * UNEVEN, ["uneven time"]), (0.9, ["gap"])]
+)
 def test_how_uneven_is_too_uneven(shift: float, checks: list[str]) -> None:
     run = coning()
     time = run.flight.time.copy()
@@ -50,9 +56,13 @@ def test_messages_lost_in_the_middle_and_at_the_end() -> None:
 @pytest.mark.parametrize("rate", [-1.0, 0.0])
 def test_time_that_runs_back_or_stands_still_throughout(rate: float) -> None:
     run = coning()
-    (found,) = check_timestamps(with_flight(run, replace(run.flight, time=1.0 + rate * run.flight.time)))
+    (found,) = check_timestamps(
+        with_flight(run, replace(run.flight, time=1.0 + rate * run.flight.time))
+    )
     assert (found.check, found.place) == ("time runs back", "/motion time_s")
-    assert found.text == f"step = {-0.01 if rate else 0} s, allowed: step > 0 (the worst of 600 steps)"
+    assert (
+        found.text == f"step = {-0.01 if rate else 0} s, allowed: step > 0 (the worst of 600 steps)"
+    )
 
 
 def test_one_step_back() -> None:

@@ -21,14 +21,22 @@ def test_every_row_tells_its_unit_and_its_time() -> None:
     plot = over_time(judge(coning()))
     titles = [annotation.text for annotation in plot.layout.annotations]
     assert len(titles) == 11
-    assert all(re.search(r", (m/s²|°/s|°|rad/s|rad/s²|m)\b|, °$|limited", title) for title in titles), titles
-    axes = [axis for name, axis in plot.to_plotly_json()["layout"].items() if name.startswith("xaxis")]
+    assert all(
+        re.search(r", (m/s²|°/s|°|rad/s|rad/s²|m)\b|, °$|limited", title) for title in titles
+    ), titles
+    axes = [
+        axis for name, axis in plot.to_plotly_json()["layout"].items() if name.startswith("xaxis")
+    ]
     assert all(axis["showticklabels"] for axis in axes)
 
 
 def test_a_title_has_the_colours_of_its_lines() -> None:
     plot = over_time(judge(coning()))
-    (stage,) = [annotation.text for annotation in plot.layout.annotations if annotation.text.startswith("stage position")]
+    (stage,) = [
+        annotation.text
+        for annotation in plot.layout.annotations
+        if annotation.text.startswith("stage position")
+    ]
     told = re.findall(r"color:(#\w+)'><b>(\w)</b>", stage)
     drawn = [(trace.line.color, trace.name) for trace in plot.data if trace.name in ("x", "y", "z")]
     assert told == drawn == list(zip(AXES, "xyz", strict=True))
@@ -37,8 +45,17 @@ def test_a_title_has_the_colours_of_its_lines() -> None:
 def test_limits_are_told_apart() -> None:
     """Three wheels share a limit, drawn once; the stage's z has one of its own, in its colour."""
     shapes = over_time(judge(coning())).layout.shapes
-    drawn = {(shape.yref.removesuffix(" domain"), abs(shape.y0), shape.line.color) for shape in shapes if shape.y0 == shape.y1}
-    assert drawn == {("y8", 31.0, FAULT), ("y9", 60.0, FAULT), ("y10", 1.0, FAULT), ("y10", 0.75, AXES[2])}
+    drawn = {
+        (shape.yref.removesuffix(" domain"), abs(shape.y0), shape.line.color)
+        for shape in shapes
+        if shape.y0 == shape.y1
+    }
+    assert drawn == {
+        ("y8", 31.0, FAULT),
+        ("y9", 60.0, FAULT),
+        ("y10", 1.0, FAULT),
+        ("y10", 0.75, AXES[2]),
+    }
 
 
 def test_flags_have_a_lane_each() -> None:
@@ -46,7 +63,11 @@ def test_flags_have_a_lane_each() -> None:
     limited = np.zeros((len(run.flight.time), 2))
     limited[100:200, 1] = 1.0
     plot = over_time(judge(with_flight(run, replace(run.flight, limited=limited))))
-    wheels, stage = (trace for trace in plot.data if trace.fill == "tonexty" and trace.name in ("wheels", "stage"))
+    wheels, stage = (
+        trace
+        for trace in plot.data
+        if trace.fill == "tonexty" and trace.name in ("wheels", "stage")
+    )
     assert set(np.asarray(wheels.y)) == {1.0}
     assert sorted(set(np.asarray(stage.y).round(3))) == [0.0, 0.8]
 
@@ -54,14 +75,29 @@ def test_flags_have_a_lane_each() -> None:
 def test_rounding_is_not_drawn_as_a_signal() -> None:
     run = coning()
     noise = 1e-15 * np.random.default_rng(1).normal(size=run.flight.felt_f.shape)
-    still = replace(run.flight, felt_f=noise, wheel_speed=noise, motion_p_W=noise + np.array([0.0, 0.0, 2e-9]))
+    still = replace(
+        run.flight, felt_f=noise, wheel_speed=noise, motion_p_W=noise + np.array([0.0, 0.0, 2e-9])
+    )
     drawn = over_time(judge(with_flight(run, still))).data
     flat = [trace.name for trace in drawn if not np.any(np.asarray(trace.y))]
-    assert [flat.count(name) for name in ("rider", "wheel 1", "wheel 2", "x", "y", "z")] == [3, 1, 1, 1, 1, 0]
+    assert [flat.count(name) for name in ("rider", "wheel 1", "wheel 2", "x", "y", "z")] == [
+        3,
+        1,
+        1,
+        1,
+        1,
+        0,
+    ]
 
 
 def test_spells_of_other_states_are_shaded() -> None:
-    run = with_states(coning(), (0.0, "running", ""), (1.0, "holding", "late"), (2.5, "running", ""), (5.0, "parking", ""))
+    run = with_states(
+        coning(),
+        (0.0, "running", ""),
+        (1.0, "holding", "late"),
+        (2.5, "running", ""),
+        (5.0, "parking", ""),
+    )
     plot = over_time(judge(run))
     shaded = [(shape.x0, shape.x1) for shape in plot.layout.shapes if shape.type == "rect"]
     assert shaded == [(1.0, 2.5), (5.0, 6.0)]
@@ -84,7 +120,9 @@ def test_bars_show_the_largest_use() -> None:
     first, *_ = limit_bars(run).data
     used = dict(zip(first.x, first.y, strict=True))
     assert used["stage travel"] == pytest.approx(100.0 * np.abs(run.flight.motion_p_W[:, 0]).max())
-    assert used["wheel speed"] == pytest.approx(100.0 * np.abs(run.flight.wheel_speed[:, 0]).max() / 31.0)
+    assert used["wheel speed"] == pytest.approx(
+        100.0 * np.abs(run.flight.wheel_speed[:, 0]).max() / 31.0
+    )
     assert list(used) == [f"wheel {q}" for q in ("speed", "acceleration", "jerk")] + [
         f"stage {q}" for q in ("travel", "speed", "acceleration", "jerk")
     ]

@@ -28,7 +28,12 @@ def played(fdm: jsbsim.FGFDMExec, *inputs: TimedInput, times: list[float]) -> li
 
 
 def test_a_step_is_set_at_its_time_and_stays(fdm: jsbsim.FGFDMExec) -> None:
-    assert played(fdm, TimedInput(0.1, ELEVATOR, 0.5), times=[0.0, 0.09, 0.1, 5.0]) == [0.0, 0.0, 0.5, 0.5]
+    assert played(fdm, TimedInput(0.1, ELEVATOR, 0.5), times=[0.0, 0.09, 0.1, 5.0]) == [
+        0.0,
+        0.0,
+        0.5,
+        0.5,
+    ]
 
 
 def test_a_step_is_set_once_and_then_left_alone(fdm: jsbsim.FGFDMExec) -> None:
@@ -51,10 +56,14 @@ def test_a_ramp_is_linear_from_the_present_value_and_ends_exactly(fdm: jsbsim.FG
     assert values[-1] == 0.6
 
 
-def test_the_later_of_two_overlapping_ramps_takes_over_from_where_the_first_is(fdm: jsbsim.FGFDMExec) -> None:
+def test_the_later_of_two_overlapping_ramps_takes_over_from_where_the_first_is(
+    fdm: jsbsim.FGFDMExec,
+) -> None:
     ramps = TimedInput(0.0, ELEVATOR, 1.0, 10.0), TimedInput(5.0, ELEVATOR, 0.0, 1.0)
     # the first has come to 0.5 at 5 s, although it is only looked at again at 5.5 s
-    assert played(fdm, *ramps, times=[0.0, 4.0, 5.5, 6.0, 10.0]) == pytest.approx([0.0, 0.4, 0.25, 0.0, 0.0], abs=1e-15)
+    assert played(fdm, *ramps, times=[0.0, 4.0, 5.5, 6.0, 10.0]) == pytest.approx(
+        [0.0, 0.4, 0.25, 0.0, 0.0], abs=1e-15
+    )
 
 
 def test_a_step_ends_a_ramp(fdm: jsbsim.FGFDMExec) -> None:
@@ -62,23 +71,37 @@ def test_a_step_ends_a_ramp(fdm: jsbsim.FGFDMExec) -> None:
     assert played(fdm, *inputs, times=[0.0, 1.0, 2.0, 5.0]) == pytest.approx([0.0, 0.1, -1.0, -1.0])
 
 
-def test_inputs_are_played_in_order_of_time_and_ties_in_order_of_the_list(fdm: jsbsim.FGFDMExec) -> None:
-    inputs = TimedInput(2.0, ELEVATOR, 0.2), TimedInput(1.0, ELEVATOR, 0.1), TimedInput(2.0, ELEVATOR, 0.3)
+def test_inputs_are_played_in_order_of_time_and_ties_in_order_of_the_list(
+    fdm: jsbsim.FGFDMExec,
+) -> None:
+    inputs = (
+        TimedInput(2.0, ELEVATOR, 0.2),
+        TimedInput(1.0, ELEVATOR, 0.1),
+        TimedInput(2.0, ELEVATOR, 0.3),
+    )
     assert played(fdm, *inputs, times=[1.0, 2.0]) == [0.1, 0.3]
 
 
 def test_properties_move_independently(fdm: jsbsim.FGFDMExec) -> None:
-    player = InputPlayer([TimedInput(0.0, ELEVATOR, 1.0, 1.0), TimedInput(0.5, "fcs/rudder-cmd-norm", -1.0, 1.0)], fdm)
+    player = InputPlayer(
+        [TimedInput(0.0, ELEVATOR, 1.0, 1.0), TimedInput(0.5, "fcs/rudder-cmd-norm", -1.0, 1.0)],
+        fdm,
+    )
     player.play(0.75)
     assert (fdm[ELEVATOR], fdm["fcs/rudder-cmd-norm"]) == pytest.approx((0.75, -0.25))
 
 
 def test_a_misspelt_property_is_refused_with_the_nearest_name(fdm: jsbsim.FGFDMExec) -> None:
     with pytest.raises(
-        InputError, match="unknown JSBSim property 'fcs/elevtor-cmd-norm'; did you mean 'fcs/elevator-cmd-norm'"
+        InputError,
+        match=(
+            "unknown JSBSim property 'fcs/elevtor-cmd-norm'; did you mean 'fcs/elevator-cmd-norm'"
+        ),
     ):
         InputPlayer([TimedInput(0.0, "fcs/elevtor-cmd-norm", 0.1)], fdm)
-    assert not fdm.get_property_manager().hasNode("fcs/elevtor-cmd-norm"), "asking must not create it"
+    assert not fdm.get_property_manager().hasNode("fcs/elevtor-cmd-norm"), (
+        "asking must not create it"
+    )
 
 
 def test_an_index_of_zero_may_be_left_out_or_written(fdm: jsbsim.FGFDMExec) -> None:

@@ -23,15 +23,22 @@ def test_fragments_become_one_record_on_one_line(caplog: pytest.LogCaptureFixtur
         log = capture()
         record(log, jsbsim.LogLevel.STDOUT, "one\n", "  two ", "three\n")
         record(log, jsbsim.LogLevel.INFO, "four")
-    assert caplog.record_tuples == [(LOGGER.name, logging.INFO, "one two three"), (LOGGER.name, logging.INFO, "four")]
+    assert caplog.record_tuples == [
+        (LOGGER.name, logging.INFO, "one two three"),
+        (LOGGER.name, logging.INFO, "four"),
+    ]
 
 
 @pytest.mark.parametrize("level", list(jsbsim.LogLevel))
-def test_every_level_of_jsbsim_has_one_here(level: jsbsim.LogLevel, caplog: pytest.LogCaptureFixture) -> None:
+def test_every_level_of_jsbsim_has_one_here(
+    level: jsbsim.LogLevel, caplog: pytest.LogCaptureFixture
+) -> None:
     with caplog.at_level(logging.DEBUG, LOGGER.name):
         record(capture(), level, "text")
     assert len(caplog.records) == 1
-    assert (caplog.records[0].levelno >= logging.WARNING) == (level.name in {"WARN", "ERROR", "FATAL"})
+    assert (caplog.records[0].levelno >= logging.WARNING) == (
+        level.name in {"WARN", "ERROR", "FATAL"}
+    )
 
 
 def test_empty_records_are_dropped(caplog: pytest.LogCaptureFixture) -> None:
@@ -57,13 +64,19 @@ def test_file_and_line_lead_the_record(caplog: pytest.LogCaptureFixture) -> None
     assert caplog.messages == ["a.xml:7: bad"]
 
 
-def test_notifications_of_a_script_are_logged_at_info(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+def test_notifications_of_a_script_are_logged_at_info(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
     script = write_script(tmp_path / "notify.xml", event("fcs/elevator-cmd-norm", "0.1"))
     with caplog.at_level(logging.INFO, LOGGER.name):
         vehicle = JsbsimVehicle(ScriptFlight(script))
         while vehicle.advance():
             pass
-    told = [record for record in caplog.records if "execution at" in record.getMessage() or "(Event" in record.getMessage()]
+    told = [
+        record
+        for record in caplog.records
+        if "execution at" in record.getMessage() or "(Event" in record.getMessage()
+    ]
     assert told
     assert all(record.levelno == logging.INFO for record in told)
 

@@ -42,7 +42,10 @@ def test_it_is_a_vehicle() -> None:
     assert vehicle.dt == 1.0 / 120.0
 
 
-@pytest.mark.parametrize("flight", [cessna(TimedInput(0.5, "fcs/aileron-cmd-norm", 1.0, 0.3)), script("c1722", duration=5.0)])
+@pytest.mark.parametrize(
+    "flight",
+    [cessna(TimedInput(0.5, "fcs/aileron-cmd-norm", 1.0, 0.3)), script("c1722", duration=5.0)],
+)
 def test_the_same_flight_twice_is_bitwise_the_same(flight: ScriptFlight | AircraftFlight) -> None:
     one, two = JsbsimVehicle(flight), JsbsimVehicle(flight)  # side by side, in one process
     while one.advance():
@@ -52,8 +55,12 @@ def test_the_same_flight_twice_is_bitwise_the_same(flight: ScriptFlight | Aircra
     assert norm(one.state.w_NB_B) > 1e-3, "nothing happened"
 
 
-@pytest.mark.parametrize("name", ["c172_elevator_doublet", "f16_runway_test", "Test_F450_Launch", "ah1s_flight_test"])
-def test_states_are_those_of_plain_jsbsim(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(
+    "name", ["c172_elevator_doublet", "f16_runway_test", "Test_F450_Launch", "ah1s_flight_test"]
+)
+def test_states_are_those_of_plain_jsbsim(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)  # plain JSBSim leaves its files here
     vehicle = JsbsimVehicle(script(name))
     capture()
@@ -65,7 +72,8 @@ def test_states_are_those_of_plain_jsbsim(name: str, tmp_path: Path, monkeypatch
     for _ in range(round(12.0 / vehicle.dt)):
         state = vehicle.state
         attitude = Rotation.from_quat(state.q_NB, scalar_first=True).as_matrix().T
-        assert np.abs(attitude - body_from_north(plain)).max() < 1e-8  # its quaternion is off unit length
+        # its quaternion is off unit length
+        assert np.abs(attitude - body_from_north(plain)).max() < 1e-8
         assert state.w_NB_B == tuple(plain[f"velocities/{axis}-rad_sec"] for axis in "pqr")
         force = np.array([plain[f"accelerations/a-pilot-{axis}-ft_sec2"] for axis in "xyz"])
         apparent = plain["accelerations/gravity-ft_sec2"] - centrifugal
@@ -76,13 +84,16 @@ def test_states_are_those_of_plain_jsbsim(name: str, tmp_path: Path, monkeypatch
 
 def test_at_rest_the_force_is_gravity_upwards() -> None:
     state = fly(JsbsimVehicle(script("f16_runway_test", duration=3.0)))[-1]
-    assert state.f_B == pytest.approx((0.0, 0.0, -9.80665), abs=0.25)  # the nose gear holds it a little off level
+    # the nose gear holds it a little off level
+    assert state.f_B == pytest.approx((0.0, 0.0, -9.80665), abs=0.25)
     assert rotate(state.q_NB, state.f_B) == pytest.approx((0.0, 0.0, -9.80665), abs=0.02)
 
 
 @pytest.mark.parametrize("altitude", [1000.0, 12_000.0])
 def test_level_flight_shows_standard_gravity_at_any_height(altitude: float) -> None:
-    cruise = AircraftFlight("737", InitialConditions(altitude, 200.0, latitude=radians(80.0), trim=True), duration=1.0)
+    cruise = AircraftFlight(
+        "737", InitialConditions(altitude, 200.0, latitude=radians(80.0), trim=True), duration=1.0
+    )
     for state in fly(JsbsimVehicle(cruise)):
         assert norm(state.f_B) == pytest.approx(9.80665, abs=0.02)
 
@@ -96,7 +107,9 @@ def test_time_is_the_number_of_steps_times_dt(name: str) -> None:
 
 
 def test_time_goes_on_when_a_script_resets_the_flight(tmp_path: Path) -> None:
-    flight = ScriptFlight(write_script(tmp_path / "s.xml", event("simulation/reset", "1")), duration=1.8)
+    flight = ScriptFlight(
+        write_script(tmp_path / "s.xml", event("simulation/reset", "1")), duration=1.8
+    )
     vehicle = JsbsimVehicle(flight)
     clock = []
     while vehicle.advance():
@@ -137,7 +150,9 @@ def test_a_duration_that_is_none_is_refused(duration: float) -> None:
 
 
 def test_twice_the_rate_is_twice_the_states_of_the_same_flight() -> None:
-    slow, fast = (fly(JsbsimVehicle(script("c1721", rate_hz=rate, duration=5.0))) for rate in (120.0, 240.0))
+    slow, fast = (
+        fly(JsbsimVehicle(script("c1721", rate_hz=rate, duration=5.0))) for rate in (120.0, 240.0)
+    )
     assert len(fast) == 2 * len(slow) - 1
     assert geodesic(slow[-1].q_NB, fast[-1].q_NB) < radians(0.5)
 
@@ -151,19 +166,26 @@ def test_inputs_reach_the_flight_at_their_time() -> None:
     assert with_pull[-1].w_NB_B[1] > 0.1, "stick back: nose up"
 
 
-@pytest.mark.parametrize(("aircraft", "airspeed", "altitude"), [("c172x", 60.0, 150.0), ("f16", 200.0, 400.0)])
-def test_a_dive_into_the_ground_ends_the_flight_with_time_and_reason(aircraft: str, airspeed: float, altitude: float) -> None:
+@pytest.mark.parametrize(
+    ("aircraft", "airspeed", "altitude"), [("c172x", 60.0, 150.0), ("f16", 200.0, 400.0)]
+)
+def test_a_dive_into_the_ground_ends_the_flight_with_time_and_reason(
+    aircraft: str, airspeed: float, altitude: float
+) -> None:
     dive = InitialConditions(altitude, airspeed, pitch=radians(-60.0))
     vehicle = JsbsimVehicle(AircraftFlight(aircraft, dive, duration=30.0))
     failure = flown_to_failure(vehicle)
     assert 1.0 < failure.time < 15.0
     assert failure.time == pytest.approx(vehicle.state.time + vehicle.dt)
     assert "allowed" in failure.reason
-    assert Bounds().objection(vehicle.state, 0.0) == "", "the state left behind is the last good one"
+    assert Bounds().objection(vehicle.state, 0.0) == "", (
+        "the state left behind is the last good one"
+    )
 
 
 @pytest.mark.parametrize(
-    ("name", "at"), [("cannonball", 36.99), ("ball_chute", 30.42), ("f16_test", 127.9), ("p51_start_test", 0.0167)]
+    ("name", "at"),
+    [("cannonball", 36.99), ("ball_chute", 30.42), ("f16_test", 127.9), ("p51_start_test", 0.0167)],
 )
 def test_own_scripts_that_end_badly_fail_at_their_time(name: str, at: float) -> None:
     failure = flown_to_failure(JsbsimVehicle(script(name)))
@@ -172,7 +194,9 @@ def test_own_scripts_that_end_badly_fail_at_their_time(name: str, at: float) -> 
 
 def test_an_elevator_that_is_not_a_number_fails_one_step_later(tmp_path: Path) -> None:
     acos_of_2 = "<acos><value>2</value></acos>"
-    flight = ScriptFlight(write_script(tmp_path / "s.xml", event("fcs/elevator-cmd-norm", acos_of_2)))
+    flight = ScriptFlight(
+        write_script(tmp_path / "s.xml", event("fcs/elevator-cmd-norm", acos_of_2))
+    )
     vehicle = JsbsimVehicle(flight)
     failure = flown_to_failure(vehicle)
     assert failure.time == pytest.approx(0.5, abs=0.03)
@@ -198,7 +222,10 @@ def test_a_first_state_out_of_bounds_fails_at_time_zero() -> None:
 def test_what_jsbsim_raises_in_mid_run_is_a_failed_vehicle(tmp_path: Path) -> None:
     text = event("fcs/elevator-cmd-norm", "0.1").replace("simulation/sim-time-sec", "nobody/knows")
     failure = flown_to_failure(JsbsimVehicle(ScriptFlight(write_script(tmp_path / "s.xml", text))))
-    assert failure.reason == "JSBSim: FGPropertyValue::GetValue() The property nobody/knows does not exist"
+    assert (
+        failure.reason
+        == "JSBSim: FGPropertyValue::GetValue() The property nobody/knows does not exist"
+    )
 
 
 def test_a_script_that_stops_the_clock_fails_instead_of_going_on_for_ever(tmp_path: Path) -> None:
@@ -215,8 +242,12 @@ def test_wrong_inputs_are_refused_when_built() -> None:
         JsbsimVehicle(cessna(TimedInput(1.0, "fcs/elevator-cmd-norm", nan)))
 
 
-@pytest.mark.parametrize(("name", "value"), [("simulation/do_simple_trim", -1.0), ("propulsion/set-running", 1e9)])
-def test_an_input_that_jsbsim_throws_at_ends_the_flight_and_not_the_process(name: str, value: float) -> None:
+@pytest.mark.parametrize(
+    ("name", "value"), [("simulation/do_simple_trim", -1.0), ("propulsion/set-running", 1e9)]
+)
+def test_an_input_that_jsbsim_throws_at_ends_the_flight_and_not_the_process(
+    name: str, value: float
+) -> None:
     vehicle = JsbsimVehicle(cessna(TimedInput(1.0, name, value)))
     failure = flown_to_failure(vehicle)
     assert failure.time == 1.0
@@ -224,14 +255,24 @@ def test_an_input_that_jsbsim_throws_at_ends_the_flight_and_not_the_process(name
     assert vehicle.state.time == 1.0, "all before it is good"
 
 
-RESET = '<event name="r"{}><condition>simulation/sim-time-sec ge {}</condition><set name="simulation/reset" value="1"/></event>'
+RESET = (
+    '<event name="r"{}><condition>simulation/sim-time-sec ge {}</condition><set'
+    ' name="simulation/reset" value="1"/></event>'
+)
 
 
-@pytest.mark.parametrize(("persistent", "time"), [("", 1.0), (' persistent="true"', 0.05), (' continuous="true"', 0.5)])
-def test_a_script_that_resets_again_and_again_fails(persistent: str, time: float, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("persistent", "time"), [("", 1.0), (' persistent="true"', 0.05), (' continuous="true"', 0.5)]
+)
+def test_a_script_that_resets_again_and_again_fails(
+    persistent: str, time: float, tmp_path: Path
+) -> None:
     script = write_script(tmp_path / "s.xml", RESET.format(persistent, time))
     failure = flown_to_failure(JsbsimVehicle(ScriptFlight(script)))
-    assert f"clock back more than {MOST_RESETS} times (simulation/reset), so its end never comes" in failure.reason
+    assert (
+        f"clock back more than {MOST_RESETS} times (simulation/reset), so its end never comes"
+        in failure.reason
+    )
     assert failure.time <= (MOST_RESETS + 1) * (time + 0.03)
 
 

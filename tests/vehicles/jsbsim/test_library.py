@@ -19,7 +19,10 @@ def test_own_scripts_are_files_by_name() -> None:
 def test_own_aircraft_are_models_by_name() -> None:
     aircraft = own_aircraft()
     assert len(aircraft) > 50
-    assert all(path == Path(path.parent.parent, name, f"{name}.xml") and path.is_file() for name, path in aircraft.items())
+    assert all(
+        path == Path(path.parent.parent, name, f"{name}.xml") and path.is_file()
+        for name, path in aircraft.items()
+    )
     assert "aircraft_template" not in aircraft  # a file beside the folders, not a model
 
 
@@ -38,7 +41,24 @@ def test_every_property_of_a_model_has_a_name() -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["", "/", "..", "../..", "a/../b", "[[[", "a[", "a[x]", "a[-1]", "%s%n", "-a", "a/", "a//b", "//a", "\u00e9"]
+    "name",
+    [
+        "",
+        "/",
+        "..",
+        "../..",
+        "a/../b",
+        "[[[",
+        "a[",
+        "a[x]",
+        "a[-1]",
+        "%s%n",
+        "-a",
+        "a/",
+        "a//b",
+        "//a",
+        "\u00e9",
+    ],
 )
 def test_what_can_be_no_name(name: str) -> None:
     assert not is_property_name(name)

@@ -23,7 +23,11 @@ def parsed(path: Path) -> ET.Element:
 
 
 def test_outputs_and_ports_of_a_script_are_left_out_and_the_rest_is_kept(tmp_path: Path) -> None:
-    script = write_script(tmp_path / "s.xml", event("fcs/elevator-cmd-norm", "1"), OUTPUT + '<input port="45998"/>' + OUTPUT)
+    script = write_script(
+        tmp_path / "s.xml",
+        event("fcs/elevator-cmd-norm", "1"),
+        OUTPUT + '<input port="45998"/>' + OUTPUT,
+    )
     _, copy = copy_script(script, tmp_path / "a")
     tags = [element.tag for element in parsed(copy)]
     assert tags == ["use", "run"]
@@ -31,33 +35,52 @@ def test_outputs_and_ports_of_a_script_are_left_out_and_the_rest_is_kept(tmp_pat
     assert "elevator-cmd-norm" in copy.read_text()
 
 
-@pytest.mark.parametrize("name", ["c172x", "737", "B17", "ball", "global5000", "pogo-jsbsim"])  # all that have some
-def test_outputs_and_ports_of_a_model_are_left_out_but_signals_are_kept(name: str, tmp_path: Path) -> None:
+# all that have some
+@pytest.mark.parametrize("name", ["c172x", "737", "B17", "ball", "global5000", "pogo-jsbsim"])
+def test_outputs_and_ports_of_a_model_are_left_out_but_signals_are_kept(
+    name: str, tmp_path: Path
+) -> None:
     original = parsed(own_aircraft()[name])
     copy = parsed(copy_aircraft(name, tmp_path) / name / f"{name}.xml")
     ports = [element for element in original if element.tag in ("input", "output")]
     assert ports, "the original has nothing to leave out: test another aircraft"
-    assert [e.tag for e in copy if isinstance(e.tag, str)] == [e.tag for e in original if e not in ports]
-    signals = [(e.tag, e.text) for e in original.findall(".//flight_control//*") + original.findall(".//autopilot//*")]
-    assert signals == [(e.tag, e.text) for e in copy.findall(".//flight_control//*") + copy.findall(".//autopilot//*")]
+    assert [e.tag for e in copy if isinstance(e.tag, str)] == [
+        e.tag for e in original if e not in ports
+    ]
+    signals = [
+        (e.tag, e.text)
+        for e in original.findall(".//flight_control//*") + original.findall(".//autopilot//*")
+    ]
+    assert signals == [
+        (e.tag, e.text)
+        for e in copy.findall(".//flight_control//*") + copy.findall(".//autopilot//*")
+    ]
 
 
-def test_files_beside_the_model_are_within_reach_and_the_original_is_not_touched(tmp_path: Path) -> None:
+def test_files_beside_the_model_are_within_reach_and_the_original_is_not_touched(
+    tmp_path: Path,
+) -> None:
     before = own_aircraft()["c172x"].read_bytes()
     copies = copy_aircraft("c172x", tmp_path) / "c172x"
-    assert {path.name for path in copies.iterdir()} == {path.name for path in own_aircraft()["c172x"].parent.iterdir()}
+    assert {path.name for path in copies.iterdir()} == {
+        path.name for path in own_aircraft()["c172x"].parent.iterdir()
+    }
     assert not (copies / "c172x.xml").is_symlink()
     assert own_aircraft()["c172x"].read_bytes() == before
 
 
-def test_initial_conditions_beside_the_script_win_over_those_of_the_aircraft(tmp_path: Path) -> None:
+def test_initial_conditions_beside_the_script_win_over_those_of_the_aircraft(
+    tmp_path: Path,
+) -> None:
     script = write_script(tmp_path / "s.xml", initialize="mine")
     (tmp_path / "mine.xml").write_text("<initialize><altitude>7</altitude></initialize>")
     for name in ("mine", "mine.xml"):
         script = write_script(tmp_path / "s.xml", initialize=name)
         tree, _ = copy_script(script, tmp_path / f"for {name}")
         copy = Path(tree.find("use").get("initialize", ""))  # type: ignore[union-attr]
-        assert copy == tmp_path / f"for {name}" / "mine.xml", "a copy, which nobody changes between our look and JSBSim's"
+        assert copy == tmp_path / f"for {name}" / "mine.xml", (
+            "a copy, which nobody changes between our look and JSBSim's"
+        )
         assert parsed(copy).findtext("altitude") == "7"
 
 
@@ -66,7 +89,9 @@ def test_initial_conditions_of_the_aircraft_keep_their_name(tmp_path: Path) -> N
     assert tree.find("use").get("initialize") == "reset01"  # type: ignore[union-attr]
 
 
-@pytest.mark.parametrize("name", ["../secret", "/etc/fstab", "a/../../secret", "..\\secret", "a b", "x\ty", "\u0130"])
+@pytest.mark.parametrize(
+    "name", ["../secret", "/etc/fstab", "a/../../secret", "..\\secret", "a b", "x\ty", "\u0130"]
+)
 def test_initial_conditions_elsewhere_are_refused(name: str, tmp_path: Path) -> None:
     """JSBSim would open them, and say what is in them when they are not what it wants."""
     folder = tmp_path / "in"
@@ -82,7 +107,9 @@ def test_a_link_that_leads_elsewhere_is_not_followed(tmp_path: Path) -> None:
     (tmp_path / "secret.xml").write_text("<initialize/>")
     (folder / "link.xml").symlink_to(tmp_path / "secret.xml")
     tree, _ = copy_script(write_script(folder / "s.xml", initialize="link"), tmp_path / "a")
-    assert tree.find("use").get("initialize") == "link", "left to the aircraft's own folder, where there is none"
+    assert tree.find("use").get("initialize") == "link", (
+        "left to the aircraft's own folder, where there is none"
+    )
 
 
 @pytest.mark.parametrize("name", ["round", "x" * 300])
@@ -95,9 +122,15 @@ def test_a_link_that_leads_nowhere_is_none(tmp_path: Path, name: str) -> None:
 @pytest.mark.parametrize("where", ["script", "initial"])
 def test_references_to_files_are_refused(where: str, tmp_path: Path) -> None:
     inside = '<event><set name="x" file="/etc/passwd"/></event>'
-    (tmp_path / "mine.xml").write_text(f"<initialize>{inside if where == 'initial' else ''}</initialize>")
-    script = write_script(tmp_path / "s.xml", inside if where == "script" else "", initialize="mine")
-    with pytest.raises(InputError, match=r"<set file='/etc/passwd'>, allowed: no references to files"):
+    (tmp_path / "mine.xml").write_text(
+        f"<initialize>{inside if where == 'initial' else ''}</initialize>"
+    )
+    script = write_script(
+        tmp_path / "s.xml", inside if where == "script" else "", initialize="mine"
+    )
+    with pytest.raises(
+        InputError, match=r"<set file='/etc/passwd'>, allowed: no references to files"
+    ):
         copy_script(script, tmp_path / "a")
 
 
@@ -121,7 +154,10 @@ def test_a_users_file_is_small(tmp_path: Path) -> None:
 def test_lines_keep_their_numbers_through_comments(tmp_path: Path) -> None:
     script = own_scripts()["c172_elevator_doublet"]
     _, copy = copy_script(script, tmp_path)
-    lines = [next(n for n, line in enumerate(p.read_text().splitlines()) if "Re-Trim" in line) for p in (script, copy)]
+    lines = [
+        next(n for n, line in enumerate(p.read_text().splitlines()) if "Re-Trim" in line)
+        for p in (script, copy)
+    ]
     assert abs(lines[0] - lines[1]) <= 3  # the head of the file is joined
 
 
@@ -134,14 +170,22 @@ def test_lines_keep_their_numbers_through_comments(tmp_path: Path) -> None:
         ('<?xml version="1.0" encoding="foo"?><runscript/>', "not a readable XML file"),
         ("<output/>", "root element is <output>, must be <runscript>"),
         ("<runscript/>", "0 elements <use>, allowed: one"),
-        ('<runscript><use aircraft="c172x"/><use aircraft="f16"/></runscript>', "2 elements <use>, allowed: one"),
+        (
+            '<runscript><use aircraft="c172x"/><use aircraft="f16"/></runscript>',
+            "2 elements <use>, allowed: one",
+        ),
         ("<runscript><use/></runscript>", "no aircraft '' in JSBSim"),
-        ('<runscript><use aircraft="c127x"/></runscript>', "no aircraft 'c127x' in JSBSim; did you mean 'c172x'"),
+        (
+            '<runscript><use aircraft="c127x"/></runscript>',
+            "no aircraft 'c127x' in JSBSim; did you mean 'c172x'",
+        ),
         ('<runscript><use aircraft="../../x"/></runscript>', "no aircraft '../../x' in JSBSim"),
         ("<runscript>" + "<a>" * 200_000, f"nested deeper than {MAX_DEPTH}"),
         (
             '<!DOCTYPE r [<!ENTITY a "aaaaaaaaaa">'
-            + "".join(f'<!ENTITY {b} "{f"&{a};" * 30}">' for a, b in zip("abcdef", "bcdefg", strict=True))
+            + "".join(
+                f'<!ENTITY {b} "{f"&{a};" * 30}">' for a, b in zip("abcdef", "bcdefg", strict=True)
+            )
             + "]><runscript>&g;</runscript>",
             "not a readable XML file",
         ),

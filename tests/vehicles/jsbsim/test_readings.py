@@ -27,7 +27,9 @@ def placed(fdm: jsbsim.FGFDMExec, psi: float, theta: float, phi: float) -> None:
 
 @pytest.mark.parametrize("distance", [1.0, 1e-2, 1e-4, 2e-6, 9e-7, 1e-7, 1e-8, 1e-9, 0.0])
 @pytest.mark.parametrize("side", [-1.0, 1.0])
-def test_attitude_is_jsbsims_matrix_at_any_distance_from_vertical(distance: float, side: float, fdm: jsbsim.FGFDMExec) -> None:
+def test_attitude_is_jsbsims_matrix_at_any_distance_from_vertical(
+    distance: float, side: float, fdm: jsbsim.FGFDMExec
+) -> None:
     rng = np.random.default_rng(7)
     for psi, phi in zip(rng.uniform(0.0, 2.0 * pi, 20), rng.uniform(-pi, pi, 20), strict=True):
         placed(fdm, psi, side * (0.5 * pi - distance), phi)
@@ -38,9 +40,13 @@ def test_attitude_is_jsbsims_matrix_at_any_distance_from_vertical(distance: floa
 
 def test_the_signs_of_attitude(fdm: jsbsim.FGFDMExec) -> None:
     placed(fdm, radians(90.0), 0.0, 0.0)  # heading east
-    assert rotate(Readings(fdm).state(0.0).q_NB, (1.0, 0.0, 0.0)) == pytest.approx((0.0, 1.0, 0.0), abs=1e-7)
+    assert rotate(Readings(fdm).state(0.0).q_NB, (1.0, 0.0, 0.0)) == pytest.approx(
+        (0.0, 1.0, 0.0), abs=1e-7
+    )
     placed(fdm, 0.0, radians(30.0), 0.0)  # nose up: the nose points up, which is -z
-    assert rotate(Readings(fdm).state(0.0).q_NB, (1.0, 0.0, 0.0)) == pytest.approx((0.75**0.5, 0.0, -0.5), abs=1e-7)
+    assert rotate(Readings(fdm).state(0.0).q_NB, (1.0, 0.0, 0.0)) == pytest.approx(
+        (0.75**0.5, 0.0, -0.5), abs=1e-7
+    )
     placed(fdm, 0.0, 0.0, radians(90.0))  # right wing down
     assert rotate(Readings(fdm).state(0.0).q_NB, (0.0, 1.0, 0.0)) == pytest.approx(
         (0.0, 0.0, 1.0), abs=1e-7
@@ -63,7 +69,9 @@ def test_the_sign_of_the_quaternion_never_flips_through_rolls_and_headings() -> 
 
 
 def test_rates_are_the_derivative_of_attitude_in_body_axes() -> None:
-    states = fly(JsbsimVehicle(cessna(TimedInput(0.0, "fcs/aileron-cmd-norm", 0.5, 0.2), duration=3.0)))
+    states = fly(
+        JsbsimVehicle(cessna(TimedInput(0.0, "fcs/aileron-cmd-norm", 0.5, 0.2), duration=3.0))
+    )
     turned = Rotation.from_quat([state.q_NB for state in states], scalar_first=True)
     by_attitude = (turned[:-1].inv() * turned[1:]).as_rotvec() * 120.0
     rates = np.array([state.w_NB_B for state in states])
@@ -78,7 +86,9 @@ def test_height_is_in_metres_above_ground(fdm: jsbsim.FGFDMExec) -> None:
 
 @pytest.mark.parametrize("latitude", [0.0, 30.0, -80.0])
 def test_a_vehicle_at_rest_shows_standard_gravity_anywhere(latitude: float) -> None:
-    parked = InitialConditions(0.0, 0.0, latitude=radians(latitude), engines_running=False, trim=True)
+    parked = InitialConditions(
+        0.0, 0.0, latitude=radians(latitude), engines_running=False, trim=True
+    )
     fdm = load(cessna())
     start_aircraft(fdm, AircraftFlight("c172x", parked))
     for _ in range(600):
