@@ -1,14 +1,20 @@
-"""Quaternions of many ticks at a time, (n, 4), scalar first, each component contiguous.
+"""Vectors and quaternions of many ticks at a time: rows (n, 3) and (n, 4), scalar first.
 
-`rotation` has the same for one.
+`rotation` has the same for one. Results have each component contiguous.
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
-from .evaluation.run_columns import Array
-from .evaluation.statistics import length
+Array = NDArray[np.float64]
 
 _CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
+
+
+def length(v: Array) -> Array:
+    """Euclidean lengths (n,) of the rows of v (n, k)."""
+    norms: Array = np.sqrt(np.einsum("ij,ij->i", v, v))
+    return norms
 
 
 def multiply(p: Array, q: Array) -> Array:

@@ -7,12 +7,10 @@ from math import inf, isnan
 from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..evaluation import RunColumns, metrics
+from ..rotations import Array
 from .fly_batch import Outcome
-
-Array = NDArray[np.float64]
 
 Row: TypeAlias = Mapping[str, Any]  # column to value; a column that a run does not have is missing
 

@@ -5,9 +5,9 @@ from copy import copy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..rotations import geodesic
-from .run_columns import Array, RunColumns, Tail, gathered
-from .statistics import Magnitudes, Peaks, distance, length
+from ..rotations import Array, geodesic, length
+from .run_columns import RunColumns, Tail, gathered
+from .statistics import Magnitudes, Peaks, distance
 
 _LARGEST = {
     "wheel_speed_max_rad_s": "wheel_speed",

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..rotations import accumulated, exp, geodesic
-from .run_columns import Array, RunColumns, Tail, gathered
+from ..rotations import Array, accumulated, exp, geodesic
+from .run_columns import RunColumns, Tail, gathered
 from .statistics import Peaks
 
 

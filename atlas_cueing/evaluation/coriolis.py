@@ -4,7 +4,8 @@ from math import tau
 
 import numpy as np
 
-from .run_columns import Array, RunColumns, Tail, gathered
+from ..rotations import Array
+from .run_columns import RunColumns, Tail, gathered
 from .statistics import Spread
 
 NOD = 1.0

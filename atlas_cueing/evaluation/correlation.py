@@ -5,7 +5,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from .run_columns import Array
+from ..rotations import Array
 
 WINDOW = 0.5
 """Largest delay that is looked for, s (assumed): several times what a rider takes for the same

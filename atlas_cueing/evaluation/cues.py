@@ -8,7 +8,7 @@ from math import radians
 import numpy as np
 
 from ..rotation import Vec3
-from .run_columns import Array
+from ..rotations import Array
 
 FORCE_THRESHOLD: Vec3 = (0.17, 0.17, 0.28)
 """Specific force along x, y, z that a pilot begins to notice, m/s^2.

@@ -3,10 +3,10 @@
 import numpy as np
 
 from ..rotation import conjugate, from_euler, to_euler
-from ..rotations import geodesic, multiply
+from ..rotations import Array, geodesic, length, multiply
 from ..signals import STANDARD_GRAVITY, direction_error
-from .run_columns import Array, RunColumns, gathered
-from .statistics import Magnitudes, Spread, distance, length
+from .run_columns import RunColumns, gathered
+from .statistics import Magnitudes, Spread, distance
 
 DIRECTION_FORCE = 0.1 * STANDARD_GRAVITY
 """Specific force that has a direction worth comparing, m/s^2 (assumed): at a tenth of g the

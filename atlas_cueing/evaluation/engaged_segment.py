@@ -4,28 +4,16 @@ A parked platform does not follow its vehicle, and is not meant to.
 """
 
 from collections.abc import Sequence
-from typing import Protocol
 
 import numpy as np
 
+from ..signals import StateChange
 from .run_columns import RunColumns
 
 RUNNING = "running"
 
 
-class Change(Protocol):
-    """A change of state, as `recording.Status` has it."""
-
-    @property
-    def time(self) -> float:
-        """When, s."""
-
-    @property
-    def state(self) -> str:
-        """What it changed to."""
-
-
-def engaged_segment(flight: RunColumns, changes: Sequence[Change]) -> RunColumns:
+def engaged_segment(flight: RunColumns, changes: Sequence[StateChange]) -> RunColumns:
     """The longest stretch of a flight in state `running`, or none of it.
 
     A change of state at t counts from the tick at t on, which is the first of the new state.

@@ -5,10 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..rotation import ZERO, Vec3
+from ..rotations import Array
 from ..signals import STANDARD_GRAVITY
 from .correlation import Correlation
 from .cues import FORCE_THRESHOLD, RATE_THRESHOLD, CueCounter
-from .run_columns import Array, RunColumns, gathered
+from .run_columns import RunColumns, gathered
 from .statistics import Spread
 from .vestibular import CANALS, OTOLITHS, Organ, Sensing
 

@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from ..rotations import Array
 from ..signals import StageLimits, WheelLimits
-from .run_columns import Array, RunColumns, Tail, gathered
+from .run_columns import RunColumns, Tail, gathered
 from .statistics import Peaks
 
 # of a limit: differences over 1 ms of times up to an hour carry rounding of 1e-9, resting on a

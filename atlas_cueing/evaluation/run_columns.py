@@ -5,9 +5,8 @@ from dataclasses import dataclass, fields
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ..rotations import Array
 
 BLOCK_TICKS = 7168
 """Ticks a block: its temporaries of 57 kB stay in the cache, they fill whole rows of

@@ -8,13 +8,7 @@ from math import isnan
 import numpy as np
 from numpy.typing import NDArray
 
-from .run_columns import Array
-
-
-def length(v: Array) -> Array:
-    """Euclidean lengths (n,) of the rows of v (n, k)."""
-    norms: Array = np.sqrt(np.einsum("ij,ij->i", v, v))
-    return norms
+from ..rotations import Array, length
 
 
 def distance(p: Array, q: Array) -> Array:

@@ -13,7 +13,7 @@ from itertools import accumulate
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .run_columns import Array
+from ..rotations import Array
 
 # that one row of a matrix product filters; the lags' states are carried from row to row
 _TICKS = 32

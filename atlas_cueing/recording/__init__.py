@@ -1,6 +1,6 @@
 """The MCAP log: written tick by tick, read back as columns."""
 
-from .log import Log, Status, TopicColumns
+from .log import Log, TopicColumns
 from .reader import read_log
 from .recorder import RUN_METADATA, McapRecorder
 
@@ -8,7 +8,6 @@ __all__ = [
     "RUN_METADATA",
     "Log",
     "McapRecorder",
-    "Status",
     "TopicColumns",
     "read_log",
 ]

@@ -12,9 +12,10 @@ from mcap.records import Channel, Schema
 from numpy.typing import NDArray
 
 from ..errors import LogError
+from ..signals import StateChange
 from .container import LIBRARY
 from .decoding import FIELDS, Decoder, NumberDecoder, PoseDecoder, StateDecoder, decoder_of
-from .log import Growing, Log, Status, TopicColumns
+from .log import Growing, Log, TopicColumns
 from .merging import States, common_fields, merged, merged_states
 from .message_starts import Starts, message_starts
 from .recorder import RUN_METADATA
@@ -159,7 +160,7 @@ class LogBuilder:
                 return lambda: self._tables[channel].add(values, times)
         return lambda: None
 
-    def _keep_states(self, channel: int, states: list[Status], times: Times) -> None:
+    def _keep_states(self, channel: int, states: list[StateChange], times: Times) -> None:
         kept, when = self._states[channel]
         kept += states
         when += times.tolist()

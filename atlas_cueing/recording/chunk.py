@@ -10,15 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..rotation import Vec3
-from ..signals import TIMING, TOPICS, Topic, direction_error, felt
+from ..rotations import Array
+from ..signals import ROW, TIMING, TOPICS, Topic, direction_error, felt
 from .schemas import TF
 from .transforms import RATE_HZ, put_transforms, transform_template
-from .wire import Array, Records, Times, flat_dtype, flat_template, put, record_content, repeat
+from .wire import Records, Times, flat_dtype, flat_template, put, record_content, repeat
 
 # of each topic in a row; /felt comes last
 _STARTS = np.cumsum([0] + [len(topic.fields) for topic in TOPICS])
-ROW = int(_STARTS[-2])  # numbers in a row of `signals.tick_row`
-LIVE_ROW = ROW + len(TIMING.fields)  # in a live one: the fields of /timing follow
 ELAPSED = ROW + TIMING.fields.index("elapsed_s")  # its place in a live row
 _VEHICLE_F = slice(8, 11)
 _MOTION = int(_STARTS[2])  # then time, q, w, alpha, p, v, a

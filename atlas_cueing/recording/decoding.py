@@ -16,12 +16,12 @@ from mcap.records import Schema
 from numpy.typing import NDArray
 
 from ..errors import LogError
-from ..signals import LIVE_TOPICS
-from .log import Status
+from ..rotations import Array
+from ..signals import LIVE_TOPICS, StateChange
 from .message_starts import windows
 from .schemas import STATUS, TF, flat_fields, message_class, number_fields
 from .transforms import POSE, pose_of, take_transforms, transform_template
-from .wire import HEAD, RECORD_HEAD, Array, Records, Times, flat_dtype, record_content, take
+from .wire import HEAD, RECORD_HEAD, Records, Times, flat_dtype, record_content, take
 
 Starts: TypeAlias = NDArray[np.int64]
 FIELDS = {topic.name: topic.fields for topic in LIVE_TOPICS}
@@ -90,7 +90,7 @@ class StateDecoder:
         self._message = _Messages(STATUS, schema)
         self._message.prepare()  # a description that makes no sense is found before any message
 
-    def decode(self, data: bytes, starts: Starts) -> tuple[list[Status], Times]:
+    def decode(self, data: bytes, starts: Starts) -> tuple[list[StateChange], Times]:
         """States and log times (n,), ns.
 
         Raises LogError as `NumberDecoder`, and for other types.
@@ -168,14 +168,14 @@ class _Messages:
         return message
 
 
-def _status(message: Any) -> Status:
+def _status(message: Any) -> StateChange:
     """The log brings its own description of the message, which may call anything a time."""
     names = message.DESCRIPTOR.fields_by_name
     told = attrgetter("time_s", "state", "reason")(message) if set(names) >= _STATE else (None,) * 3
     time, state, reason = told
     if not (isinstance(time, float | int) and isinstance(state, str) and isinstance(reason, str)):
         raise LogError(f"a message of {STATUS} is not a time, a state and a reason")
-    return Status(float(time), state, reason)
+    return StateChange(float(time), state, reason)
 
 
 _STATE = {"time_s", "state", "reason"}

@@ -8,8 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import LogError
-from ..signals import TOPICS
-from .wire import Array, Times
+from ..rotations import Array
+from ..signals import TOPICS, StateChange
+from .wire import Times
 
 _COMPONENTS = ("wxyz", "xyz", "123")  # of a quaternion, a vector, the wheels
 
@@ -21,15 +22,6 @@ class TopicColumns:
     fields: tuple[str, ...]
     values: Array
     log_times: Times = field(default_factory=lambda: np.empty(0, np.uint64))
-
-
-@dataclass(frozen=True, slots=True)
-class Status:
-    """A change of state at `time` (s)."""
-
-    time: float
-    state: str
-    reason: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +37,7 @@ class Log:
     tables: Mapping[str, TopicColumns]
     metadata: Mapping[str, str]
     attachments: Mapping[str, bytes]
-    statuses: tuple[Status, ...]
+    statuses: tuple[StateChange, ...]
     transforms: TopicColumns | None = None
     notes: tuple[str, ...] = ()
 

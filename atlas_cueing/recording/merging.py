@@ -5,11 +5,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from .log import Growing, Status, TopicColumns
+from ..signals import StateChange
+from .log import Growing, TopicColumns
 from .wire import Times
 
 Rows = NDArray[np.intp]
-States = tuple[list[Status], list[int]]  # changes of state, and their log times, ns
+States = tuple[list[StateChange], list[int]]  # changes of state, and their log times, ns
 
 
 def merged(channels: Sequence[Growing]) -> TopicColumns:
@@ -30,7 +31,7 @@ def merged(channels: Sequence[Growing]) -> TopicColumns:
     return TopicColumns(fields, values, times)
 
 
-def merged_states(channels: Sequence[States]) -> tuple[Status, ...]:
+def merged_states(channels: Sequence[States]) -> tuple[StateChange, ...]:
     """The changes of state of all channels, in order of log time."""
     states = [state for of_channel, _ in channels for state in of_channel]
     return tuple(

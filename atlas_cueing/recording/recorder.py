@@ -14,11 +14,12 @@ from ..atomic_file import Destination
 from ..errors import OutputError
 from ..printable import utf8
 from ..rotation import Vec3
-from ..signals import LIVE_TOPICS, TOPICS, Tick, tick_row
-from .chunk import ELAPSED, LIVE_ROW, ROW, ChunkEncoder, Extra, with_felt
+from ..rotations import Array
+from ..signals import LIVE_ROW, LIVE_TOPICS, ROW, TOPICS, Tick, tick_row
+from .chunk import ELAPSED, ChunkEncoder, Extra, with_felt
 from .container import Container
 from .schemas import STATUS, STATUS_SCHEMA, TF, message_class, schema_of, status_schema
-from .wire import EPOCH_NS, LATEST_S, Array, Times, live_log_times, log_times, record_template
+from .wire import EPOCH_NS, LATEST_S, Times, live_log_times, log_times, record_template
 
 RUN_METADATA = "atlas.run"
 MAX_CHUNK_TICKS = 16384  # 16 MB of messages: well inside what the reader will unpack

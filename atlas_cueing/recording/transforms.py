@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import LogError
-from .wire import HEAD, Array, Records, Times, record_template, repeat
+from ..rotations import Array
+from .wire import HEAD, Records, Times, record_template, repeat
 
 # what a message tells, as in /motion
 POSE = ("px_m", "py_m", "pz_m", "q_ws_w", "q_ws_x", "q_ws_y", "q_ws_z")

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ..rotations import Array
+
 Records = NDArray[np.void]
 Times = NDArray[np.uint64]
 

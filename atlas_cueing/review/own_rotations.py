@@ -5,7 +5,7 @@ Quaternions are (n, 4), scalar first; `q_AB` turns B-vectors into A-vectors; ang
 
 import numpy as np
 
-from .finding import Array
+from ..rotations import Array
 
 
 def product(p: Array, q: Array) -> Array:

@@ -8,9 +8,9 @@ import numpy as np
 from ..errors import InputError, LogError
 from ..evaluation import RunColumns
 from ..recording import Log, read_log
+from ..rotations import Array
 from ..scenario import Platform
 from .attachments import platform_of
-from .finding import Array
 
 # A log of ours packs to four fifths in flight and to a sixth standing still. What a file unpacks to
 # is bounded by its own size, or 30 kB could fill the memory.

@@ -4,12 +4,25 @@ from .attitude_jump import attitude_jump
 from .felt import STANDARD_GRAVITY, direction_error, felt
 from .limits import StageLimits, WheelLimits
 from .seams import Sink, Vehicle, WheelDrive
+from .state_change import StateChange
 from .states import Cue, Motion, Tick, Timing, VehicleState, WheelSpeeds
-from .topics import LIVE_STATES, LIVE_TOPICS, TIMING, TOPICS, Topic, live_row, tick_row
+from .topics import (
+    LIVE_ROW,
+    LIVE_STATES,
+    LIVE_TOPICS,
+    ROW,
+    TIMING,
+    TOPICS,
+    Topic,
+    live_row,
+    tick_row,
+)
 
 __all__ = [
+    "LIVE_ROW",
     "LIVE_STATES",
     "LIVE_TOPICS",
+    "ROW",
     "STANDARD_GRAVITY",
     "TIMING",
     "TOPICS",
@@ -17,6 +30,7 @@ __all__ = [
     "Motion",
     "Sink",
     "StageLimits",
+    "StateChange",
     "Tick",
     "Timing",
     "Topic",

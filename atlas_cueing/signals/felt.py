@@ -1,9 +1,9 @@
 """What the rider's head feels, for whole runs at a time."""
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from ..rotations import Array
 
 STANDARD_GRAVITY = 9.80665  # m/s^2, by definition (CGPM 1901)
 _FLU_TO_FRD = np.array([1.0, -1.0, -1.0])

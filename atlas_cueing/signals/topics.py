@@ -63,6 +63,10 @@ LIVE_TOPICS = (*TOPICS[:-1], TIMING, TOPICS[-1])
 """What a live log holds; as in TOPICS, all but the last come from the loop."""
 
 
+ROW = sum(len(topic.fields) for topic in TOPICS[:-1])  # numbers in a row of `tick_row`
+LIVE_ROW = ROW + len(TIMING.fields)  # in a row of `live_row`: the fields of /timing follow
+
+
 def tick_row(tick: Tick) -> tuple[float, ...]:
     """All numbers of a tick in the order of the first four topics of `TOPICS`."""
     # Written out, since unpacking one vector after the other takes three times as long where the

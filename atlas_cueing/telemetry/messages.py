@@ -3,9 +3,7 @@
 import json
 from struct import Struct
 
-from ..recording.chunk import LIVE_ROW
-from ..recording.log import Status
-from ..signals import Tick, Timing, live_row
+from ..signals import LIVE_ROW, StateChange, Tick, Timing, live_row
 from .ring import Ring
 
 TICK, STATUS, END = 1, 2, 3
@@ -44,10 +42,10 @@ def numbers(data: bytes) -> tuple[float, ...]:
     return _row.unpack(data)
 
 
-def status(data: bytes) -> Status:
+def status(data: bytes) -> StateChange:
     """The content of a STATUS, or of an END with the result as its state."""
     time, state, reason = json.loads(data)
-    return Status(time, state, reason)
+    return StateChange(time, state, reason)
 
 
 def _text(time: float, state: str, reason: str) -> bytes:

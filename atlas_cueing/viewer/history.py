@@ -5,9 +5,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..recording.chunk import LIVE_ROW, felt_columns
+from ..recording.chunk import felt_columns
 from ..rotation import Vec3
-from ..signals import LIVE_TOPICS
+from ..signals import LIVE_ROW, LIVE_TOPICS
 from .live_plots import Traces
 from .recorded_motion import wheel_angles
 from .scene import Pose

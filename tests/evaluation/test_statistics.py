@@ -6,7 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from atlas_cueing.evaluation.statistics import Magnitudes, Peaks, Spread, distance, length
+from atlas_cueing.evaluation.statistics import Magnitudes, Peaks, Spread, distance
+from atlas_cueing.rotations import length
 
 SINGLE = 1.2e-7  # twice what single precision rounds by
 

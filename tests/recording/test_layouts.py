@@ -14,11 +14,11 @@ from google.protobuf.descriptor_pb2 import FileDescriptorSet
 from mcap.writer import CompressionType
 
 from atlas_cueing.errors import LogError
-from atlas_cueing.recording import Log, Status, read_log
+from atlas_cueing.recording import Log, read_log
 from atlas_cueing.recording.compression import MAX_CHUNK
 from atlas_cueing.recording.merging import merged_order, time_order
 from atlas_cueing.recording.schemas import message_class
-from atlas_cueing.signals import TOPICS, tick_row
+from atlas_cueing.signals import TOPICS, StateChange, tick_row
 
 from .flights import record, tumble
 from .layouts import ALL_CRCS, LAYOUTS, NO_CRCS, Item, Layout, rewritten
@@ -69,7 +69,10 @@ def test_a_log_copied_by_mcap_core() -> None:
     copied, ticks = read_log(Path(__file__).with_name("by_mcap_core.mcap")), tumble(12, 100.0)
     rows = np.hstack([copied.tables[topic.name].values for topic in TOPICS[:4]])
     np.testing.assert_allclose(rows, [tick_row(tick) for tick in ticks], rtol=1e-14, atol=1e-14)
-    assert copied.statuses == (Status(0.0, "running", ""), Status(0.11, "done", "end of test"))
+    assert copied.statuses == (
+        StateChange(0.0, "running", ""),
+        StateChange(0.11, "done", "end of test"),
+    )
     assert copied.notes == ()
 
 

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from atlas_cueing.recording import Log, McapRecorder, read_log
-from atlas_cueing.recording.wire import Array
+from atlas_cueing.rotations import Array
 from atlas_cueing.signals import LIVE_TOPICS, TOPICS, Tick, Topic
 
 from .flights import ATTACHMENTS, HEAD, METADATA, any_ticks, append_all, tumble

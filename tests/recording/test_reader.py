@@ -13,13 +13,13 @@ from hypothesis import given, settings
 from mcap.writer import CompressionType, Writer
 
 from atlas_cueing.errors import LogError
-from atlas_cueing.recording import Status, read_log
+from atlas_cueing.recording import read_log
 from atlas_cueing.recording.chunk import EncodedChunk
 from atlas_cueing.recording.compression import MAX_CHUNK
 from atlas_cueing.recording.container import Container
 from atlas_cueing.recording.schemas import flat_schema, status_schema
 from atlas_cueing.recording.wire import flat_template, record_template
-from atlas_cueing.signals import TOPICS, Tick, Topic, tick_row
+from atlas_cueing.signals import TOPICS, StateChange, Tick, Topic, tick_row
 
 from .flights import ATTACHMENTS, METADATA, any_ticks, record, tumble
 
@@ -38,8 +38,8 @@ def test_everything_is_read_back(
     assert log.metadata == {**METADATA, "result": "ok", "reason": "end of test"}
     assert log.attachments == ATTACHMENTS
     assert log.statuses == (
-        Status(0.0, "running", ""),
-        Status(ticks[-1].vehicle.time, "done", "end of test"),
+        StateChange(0.0, "running", ""),
+        StateChange(ticks[-1].vehicle.time, "done", "end of test"),
     )
 
 

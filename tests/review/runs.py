@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 
 from atlas_cueing.evaluation import RunColumns
-from atlas_cueing.recording import Log, Status, TopicColumns
+from atlas_cueing.recording import Log, TopicColumns
 from atlas_cueing.review import RecordedRun
 from atlas_cueing.scenario import load_platform
-from atlas_cueing.signals import TOPICS
+from atlas_cueing.signals import TOPICS, StateChange
 
 G = 9.80665
 
@@ -77,7 +77,9 @@ def with_flight(run: RecordedRun, flight: RunColumns) -> RecordedRun:
 
 def with_states(run: RecordedRun, *states: tuple[float, str, str]) -> RecordedRun:
     """The run with other states."""
-    return replace(run, log=replace(run.log, statuses=tuple(Status(*state) for state in states)))
+    return replace(
+        run, log=replace(run.log, statuses=tuple(StateChange(*state) for state in states))
+    )
 
 
 def _felt(t: np.ndarray, n: float, s: float, a_W: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -127,4 +129,4 @@ def _flight(
 
 
 def _log() -> Log:
-    return Log(Path("coning.mcap"), {}, {"result": "ok"}, {}, (Status(0.0, "running", ""),))
+    return Log(Path("coning.mcap"), {}, {"result": "ok"}, {}, (StateChange(0.0, "running", ""),))

@@ -7,8 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from recording.flights import tumbling_at
 
-from atlas_cueing.recording.log import Status
-from atlas_cueing.signals import Timing, live_row
+from atlas_cueing.signals import StateChange, Timing, live_row
 from atlas_cueing.telemetry import LiveWriter, RingReader, live_ring
 from atlas_cueing.telemetry.messages import END, LONGEST_TEXT, STATUS, TICK, numbers, status
 
@@ -23,7 +22,7 @@ def test_a_tick_is_all_its_numbers() -> None:
     assert numbers(data) == live_row(tick, timing)
 
 
-def told(state: str, reason: str, time: float = 1.5) -> Status:
+def told(state: str, reason: str, time: float = 1.5) -> StateChange:
     """A change of state, there and back; an end is no different."""
     ring = live_ring(1.0, 100.0)
     reader, writer = RingReader(ring), LiveWriter(ring)
@@ -37,8 +36,10 @@ def told(state: str, reason: str, time: float = 1.5) -> Status:
 
 
 def test_a_change_of_state() -> None:
-    assert told("holding", "no input for 0.10 s") == Status(1.5, "holding", "no input for 0.10 s")
-    assert told("", "", 0.1 + 0.2) == Status(0.1 + 0.2, "", "")
+    assert told("holding", "no input for 0.10 s") == StateChange(
+        1.5, "holding", "no input for 0.10 s"
+    )
+    assert told("", "", 0.1 + 0.2) == StateChange(0.1 + 0.2, "", "")
 
 
 @pytest.mark.parametrize(

@@ -18,9 +18,9 @@ ordinary flights.
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ...rotations import Array
+
 State = tuple[float, float, float, float]
 
 

@@ -16,12 +16,11 @@ import numpy as np
 
 from ...errors import MissingExtraError
 from ...recording.chunk import ELAPSED, ChunkEncoder, with_felt
-from ...recording.log import Status
 from ...recording.schemas import STATUS as STATUS_TOPIC
 from ...recording.schemas import TF, message_class, schema_of
 from ...recording.wire import live_log_times
 from ...rotation import Vec3
-from ...signals import LIVE_TOPICS
+from ...signals import LIVE_TOPICS, StateChange
 from ...telemetry import Ring, RingReader
 from ...telemetry.child_process import ChildProcess, Left
 from ...telemetry.messages import END, STATUS, TICK, status
@@ -93,7 +92,7 @@ class Feed:
         self._encoder = ChunkEncoder({name: k for k, name in enumerate(self.topics)}, LIVE_TOPICS)
         self._status_class = message_class(*schema_of(STATUS_TOPIC))
         self._started = self._latest = started_ns
-        self._state: Status | None = None
+        self._state: StateChange | None = None
         self._said = 0.0
 
     def new(self, now: float) -> list[tuple[str, int, bytes]]:
@@ -119,7 +118,7 @@ class Feed:
         chunk = self._encoder.encode(with_felt(rows, self._head_S), times, ())
         return [(self.topics[k], at, content) for k, at, content in chunk.messages()]
 
-    def _status(self, new: Status) -> tuple[str, int, bytes]:
+    def _status(self, new: StateChange) -> tuple[str, int, bytes]:
         message = self._status_class(time_s=new.time, state=new.state, reason=new.reason)
         return STATUS_TOPIC, self._latest, message.SerializeToString()
 

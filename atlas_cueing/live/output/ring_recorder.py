@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from ...errors import OutputError
 from ...printable import printable
 from ...recording import McapRecorder
-from ...recording.log import Status
+from ...signals import StateChange
 from ...telemetry import Ring, RingReader
 from ...telemetry.messages import END, STATUS, TICK, numbers, status
 
@@ -65,7 +65,7 @@ class RingRecorder:
         self._taken = self._kept = self._lost = 0
         self._latest = 0.0  # s; time of the last tick read
         self._failure = ""
-        self._end: Status | None = None
+        self._end: StateChange | None = None
 
     def step(self, now: float) -> Recorded | None:
         """Take over what is new at `now` (s, monotonic).
@@ -86,7 +86,7 @@ class RingRecorder:
     def orphaned(self) -> Recorded:
         """The loop is gone and said no END: finish the log all the same."""
         reason = f"the loop ended without a word after {self._latest:.3f} s"
-        self._status(Status(self._latest, "stopped", reason))
+        self._status(StateChange(self._latest, "stopped", reason))
         return self._close("loop_killed", reason)
 
     def _take(self, kind: int, data: bytes) -> None:
@@ -101,7 +101,7 @@ class RingRecorder:
         elif kind == END:
             self._end = status(data)
 
-    def _status(self, new: Status) -> None:
+    def _status(self, new: StateChange) -> None:
         self._try(lambda: self._recorder.status(new.time, new.state, new.reason))
         if self._announce:
             self._say(f"{new.time:7.2f} s  {new.state}  {new.reason}".rstrip())
@@ -110,7 +110,7 @@ class RingRecorder:
         lost, self._lost = self._reader.lost - self._lost, self._reader.lost
         if lost:
             self._status(
-                Status(
+                StateChange(
                     self._latest,
                     "recording_gap",
                     f"{lost} messages lost: the log is written too slowly",

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..finding import Array, Finding, exceeding
+from ...rotations import Array
+from ..finding import Finding, exceeding
 from ..recorded_run import RecordedRun
 from .integrals import mean_step, speed_error, turn, turn_error
 

@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from ...rotations import Array
 from ...signals import TIMING
-from ..finding import Array, Finding, exceeding
+from ..finding import Finding, exceeding
 from ..recorded_run import RecordedRun
 
 ROUNDING = 1e-6  # s; time of the run and of the clock are sums of steps in another order

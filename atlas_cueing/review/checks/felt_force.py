@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from ..finding import Array, Finding, exceeding
+from ...rotations import Array
+from ..finding import Finding, exceeding
 from ..own_rotations import cross, turned, turned_back
 from ..recorded_run import RecordedRun
 

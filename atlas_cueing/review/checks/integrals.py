@@ -9,7 +9,7 @@ from math import sqrt
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..finding import Array
+from ...rotations import Array
 
 # Largest error of h/2 (v0 + v1) + h^2/12 (a0 - a1) for the integral of v with |v''| <= J, over J
 # h^3: the integral of |t (1 - t)/2 - 1/12| over the unit interval.

@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from ...rotations import Array
 from ...signals import LIVE_TOPICS, TIMING
-from ..finding import Array, Finding, exceeding
+from ..finding import Finding, exceeding
 from ..recorded_run import RecordedRun
 from .rounding import rounding
 

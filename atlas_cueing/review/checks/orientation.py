@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from ..finding import Array, Finding, exceeding
+from ...rotations import Array
+from ..finding import Finding, exceeding
 from ..own_rotations import cross, from_vector, inverse, product, to_vector, turned_back
 from ..recorded_run import RecordedRun
 from .integrals import TURN, turn

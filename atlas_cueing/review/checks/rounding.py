@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..finding import Array
+from ...rotations import Array
 
 COARSEST = 1e-6  # s; stamps of microseconds are rounded by half of it, coarser ones are no rounding
 

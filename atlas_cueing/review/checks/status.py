@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from ...recording import Status
-from ..finding import Array, Finding, exceeding
+from ...rotations import Array
+from ...signals import StateChange
+from ..finding import Finding, exceeding
 from ..own_rotations import inverse, product, to_vector
 from ..recorded_run import RecordedRun
 
@@ -52,7 +53,7 @@ def notes(run: RecordedRun) -> list[str]:
     return told
 
 
-def spells(run: RecordedRun) -> list[tuple[float, float | None, Status]]:
+def spells(run: RecordedRun) -> list[tuple[float, float | None, StateChange]]:
     """Each spell of a state that is not calm: when it began and ended, s (None.
 
     Never), and what was said of it.
@@ -65,7 +66,7 @@ def spells(run: RecordedRun) -> list[tuple[float, float | None, Status]]:
     ]
 
 
-def _is_broken(status: Status) -> bool:
+def _is_broken(status: StateChange) -> bool:
     return any(word in status.state.lower() for word in BROKEN)
 
 

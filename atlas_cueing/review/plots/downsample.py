@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ..finding import Array
+from ...rotations import Array
 
 POINTS = 4000  # most points of one trace; a screen has half as many columns
 

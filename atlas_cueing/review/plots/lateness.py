@@ -6,8 +6,8 @@ import numpy as np
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
+from ...rotations import Array
 from ..checks.deadlines import timing
-from ..finding import Array
 from ..recorded_run import RecordedRun
 from .downsample import thinned
 from .time_series import SERIES, coloured, line, styled

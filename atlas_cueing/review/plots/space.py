@@ -6,7 +6,7 @@ import numpy as np
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
-from ..finding import Array
+from ...rotations import Array
 from ..own_rotations import turned
 from ..recorded_run import RecordedRun
 from .downsample import thinned

@@ -11,8 +11,9 @@ import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
 from ...printable import html_text
+from ...rotations import Array
 from ..checks.status import spells
-from ..finding import Array, Finding
+from ..finding import Finding
 from ..recorded_run import RecordedRun
 from ..verdict import Review
 from .downsample import thinned

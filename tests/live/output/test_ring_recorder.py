@@ -9,8 +9,7 @@ from recording.flights import ATTACHMENTS
 
 from atlas_cueing.live.output.ring_recorder import FLUSH_S, Recorded, RingRecorder
 from atlas_cueing.recording import read_log
-from atlas_cueing.recording.log import Status
-from atlas_cueing.signals import LIVE_TOPICS, live_row
+from atlas_cueing.signals import LIVE_TOPICS, StateChange, live_row
 from atlas_cueing.telemetry import LiveWriter, Ring, live_ring
 
 from ..logs import largest_file, recovered, times
@@ -73,8 +72,11 @@ class TestTheLog:
             "   0.00 s  running  engaged by hand",
             "   3.20 s  holding  no input for 0.1 s",
         ]
-        expected = (Status(0.0, "parked", ""), Status(0.0, "running", "engaged by hand"))
-        assert read_log(path).statuses == (*expected, Status(3.2, "holding", "no input for 0.1 s"))
+        expected = (StateChange(0.0, "parked", ""), StateChange(0.0, "running", "engaged by hand"))
+        assert read_log(path).statuses == (
+            *expected,
+            StateChange(3.2, "holding", "no input for 0.1 s"),
+        )
 
     def test_nothing_is_told_unasked(self, path: Path) -> None:
         lines: list[str] = []
@@ -112,7 +114,7 @@ class TestTheLog:
         )
         log = read_log(path)
         assert log.metadata["reason"] == recorded.reason
-        gap = Status(
+        gap = StateChange(
             0.0, "recording_gap", f"{recorded.lost} messages lost: the log is written too slowly"
         )
         assert log.statuses == (gap,)
@@ -146,7 +148,7 @@ class TestTheLog:
         )
         log = read_log(path)
         assert log.metadata["result"] == "loop_killed"
-        assert log.statuses == (Status(0.5, "stopped", recorded.reason),)
+        assert log.statuses == (StateChange(0.5, "stopped", recorded.reason),)
 
     def test_a_log_that_cannot_be_written_is_told_once_and_the_ring_goes_on(
         self, path: Path
