@@ -169,8 +169,9 @@ def angle_between(a: Vec3, b: Vec3) -> float:
 def integrate_base(q_AB: Quat, turn_A: Vec3, w0_A: Vec3, w1_A: Vec3, dt: float) -> Quat:
     """Orientation after one step of q' = 1/2 w_A o q (paper, Eq. 20), with the rate given in the BASE frame A.
 
-    `turn_A` is the time integral of the rate over the step and `w0_A`, `w1_A` are its ends. Fourth-order Magnus
-    expansion (Iserles et al., Acta Numerica 9, 2000, section 4): phi = integral + dt^2/12 (w1 x w0); exact for a constant axis.
+    `turn_A` is the time integral of the rate over the step and `w0_A`, `w1_A` are its ends.
+    Fourth-order Magnus expansion (Iserles et al., Acta Numerica 9, 2000, section 4): phi = integral
+    + dt^2/12 (w1 x w0); exact for a constant axis.
     """
     return multiply(exp(_magnus(turn_A, w1_A, w0_A, dt * dt / 12.0)), q_AB)
 

@@ -75,7 +75,8 @@ def stage(s: complex, of: Scenario) -> complex:
 def turning(s: complex, of: Scenario) -> tuple[complex, complex]:
     """Pitch rate of the cabin over that of the vehicle, with the force held, and over the force x (rad/s per m/s^2).
 
-    `target` is the pitch whose gravity is the force, per m/s^2. Linear for small angles, in continuous time.
+    `target` is the pitch whose gravity is the force, per m/s^2. Linear for small angles, in
+    continuous time.
     """
     target = 1.0 / G
     match of.file.cueing.parameters():
@@ -155,7 +156,8 @@ def fitted(answer: np.ndarray, amplitude: float) -> tuple[float, float, float]:
 def rounding(answer: np.ndarray, amplitude: float) -> float:
     """The gain that rounding alone can make: backward stable, so eps of the answer over the least singular value.
 
-    (Golub and Van Loan, Matrix Computations, 5.3.) The answer is mostly offset and drift, which are far above a small gain.
+    (Golub and Van Loan, Matrix Computations, 5.3.) The answer is mostly offset and drift, which are
+    far above a small gain.
     """
     columns = np.column_stack(
         [np.sin(FITTED * TIME), np.cos(FITTED * TIME), TIME**0, TIME - TIME.mean()]

@@ -39,8 +39,9 @@ def on_cluster(
 ) -> Iterator[Callable[[Iterable[Job], Stop], Iterator[JobResult]]]:
     """What flies orders on the cluster of a scheduler (`tcp://HOST:PORT`), or on `jobs` LOCAL workers; records as they come.
 
-    The runs of a lost worker are begun again elsewhere; one that loses ATTEMPTS workers is given up as `worker_lost`. Once
-    `stop` is true nothing more is begun. Raises InputError when dask is not installed or the scheduler cannot be reached.
+    The runs of a lost worker are begun again elsewhere; one that loses ATTEMPTS workers is given up
+    as `worker_lost`. Once `stop` is true nothing more is begun. Raises InputError when dask is not
+    installed or the scheduler cannot be reached.
     """
     with _client(address, jobs) as client:
         yield partial(_fly, client)

@@ -21,9 +21,11 @@ KILLED = ("crashed", "timed_out", "out_of_memory")
 class JobResult:
     """The `<run id>.json` beside a log, angles in rad and everything else in SI, units in the names of the figures.
 
-    result: ok, vehicle_failed (did not load, or went wild), failed (an error nobody expected), crashed, timed_out,
-        out_of_memory; never kept: recording_failed, worker_lost, worker_differs.
-    log: file name beside the record; mostly a `.part` when the run was killed, empty when there is none.
+    result: ok, vehicle_failed (did not load, or went wild), failed (an error nobody expected),
+        crashed, timed_out, out_of_memory; never kept: recording_failed, worker_lost,
+        worker_differs.
+    log: file name beside the record; mostly a `.part` when the run was killed, empty when there is
+        none.
     duration, wall: of the flight and of flying it, s.
     """
 

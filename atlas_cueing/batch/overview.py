@@ -33,9 +33,10 @@ def overview(
 ) -> str:
     """The page: totals, a picture for a sweep of two parameters, a row for each run of `table`, and why others failed.
 
-    settings: the swept keys, shown where they differ; metrics: the figures shown, of which the first, that `table` is sorted
-    by, is also in the picture; files: what there is beside the page. Every run links to its log, its record and, where there is
-    one, its review (`<run id>.html`). Figures are in units for people; a head's tooltip is the name of its metric or key.
+    settings: the swept keys, shown where they differ; metrics: the figures shown, of which the
+    first, that `table` is sorted by, is also in the picture; files: what there is beside the page.
+    Every run links to its log, its record and, where there is one, its review (`<run id>.html`).
+    Figures are in units for people; a head's tooltip is the name of its metric or key.
     """
     flown, failed = (
         [row for row in table if (row["result"] == "ok") == ok] for ok in (True, False)

@@ -1,7 +1,8 @@
 """A process that has everything imported and forks once for each run: `python -m atlas_cueing.batch.worker_main`.
 
-Orders come in on stdin, a line each, and records go out on stdout, a line each. A run costs a fork instead of an interpreter
-with its libraries, and takes nothing with it when it crashes, hangs or eats memory. When stdin ends, the run under way is
+Orders come in on stdin, a line each, and records go out on stdout, a line each. A run costs a fork
+instead of an interpreter with its libraries, and takes nothing with it when it crashes, hangs or
+eats memory. When stdin ends, the run under way is
 killed: a driver that is gone leaves nothing behind.
 """
 

@@ -11,10 +11,10 @@ from .parameters import AttitudeParameters
 class AttitudeRotation:
     """The cabin stands in W as the vehicle in its north-east-down frame: q_WS = flip(heading^-1 q_NB).
 
-    It turns with the vehicle's body rates, and the slow turn takes back whatever is then left to the attitude itself. In
-    flight that is next to nothing (JSBSim's attitude lags its rates by half a step, at most dt/2 |w|); after a reset or a trim
-    in mid-run it is the jump, which is never chased. With a gain the increments of the attitude are scaled, cabin axis by cabin
-    axis; with gain one they add up to the attitude.
+    It turns with the vehicle's body rates, and the slow turn takes back whatever is then left to
+    the attitude itself. In flight that is next to nothing (JSBSim's attitude lags its rates by half a step, at most dt/2 |w|); after a reset or a trim
+    in mid-run it is the jump, which is never chased. With a gain the increments of the attitude are
+    scaled, cabin axis by cabin axis; with gain one they add up to the attitude.
     """
 
     def __init__(self, dt: float, parameters: AttitudeParameters) -> None:

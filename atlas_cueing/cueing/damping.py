@@ -10,8 +10,8 @@ from ..rotation import ZERO, Vec3
 class CriticalDamping:
     """x'' = omega^2 (target - x) - 2 omega x', stepped exactly for a target that is constant over each step.
 
-    The kernel omega^2 t exp(-omega t) is positive and of unit area, so x never leaves the convex hull of its targets, and
-    |x'| is at most omega / e times the width of that hull.
+    The kernel omega^2 t exp(-omega t) is positive and of unit area, so x never leaves the convex
+    hull of its targets, and |x'| is at most omega / e times the width of that hull.
     """
 
     def __init__(self, omega: float, dt: float) -> None:

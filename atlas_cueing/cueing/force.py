@@ -12,7 +12,8 @@ from .tilt import ForceDirection, aligned, misalignment
 class ForceRotation:
     """W's up is carried along the filtered specific force at any rate, and the cabin turns with the vehicle about it.
 
-    Whatever is left of the misalignment, also after zero force or a reversal, is taken back by the feedback turn.
+    Whatever is left of the misalignment, also after zero force or a reversal, is taken back by the
+    feedback turn.
     """
 
     def __init__(self, dt: float, parameters: ForceParameters) -> None:

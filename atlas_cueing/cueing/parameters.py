@@ -43,8 +43,10 @@ class BlendParameters:
     """Method `blend`: body rates one to one, plus the slow turn towards the vehicle's specific force.
 
     rotation_gain: factor on the vehicle's rates about the cabin's x, y, z.
-    bandwidth: natural frequency of the filter on the force whose turning the slow turn goes along with, rad/s (assumed).
-    hold: the slow turn fades out where the specific force falls from twice this magnitude to it, m/s^2 (assumed).
+    bandwidth: natural frequency of the filter on the force whose turning the slow turn goes along
+        with, rad/s (assumed).
+    hold: the slow turn fades out where the specific force falls from twice this magnitude to it,
+        m/s^2 (assumed).
     """
 
     rotation_gain: Vec3 = ONES
@@ -76,12 +78,13 @@ class ForceParameters:
 class ClassicalParameters:
     """Method `classical`: the hexapod's washout with the parameter set of TU Delft (gains 0.6, critically damped).
 
-    rotation_gain, tilt_gain: factors on body rates and on the specific force behind the tilt, per body axis.
+    rotation_gain, tilt_gain: factors on body rates and on the specific force behind the tilt, per
+        body axis.
     high_pass: natural frequencies of the rotation washout, rad/s: roll, pitch, yaw.
     tilt_low_pass: natural frequency behind the tilt, rad/s.
     tilt_rate: largest rate of the tilt, rad/s.
-    angle_limit: of roll, pitch and yaw, rad, approached smoothly (assumed: 25 deg, as hexapods of 60 inch stroke reach);
-        infinite for none.
+    angle_limit: of roll, pitch and yaw, rad, approached smoothly (assumed: 25 deg, as hexapods of
+        60 inch stroke reach); infinite for none.
     """
 
     rotation_gain: Vec3 = (0.6, 0.6, 0.6)
@@ -96,13 +99,14 @@ class ClassicalParameters:
 class PreviewParameters:
     """Method `preview`: what the plan for a whole flight minimises, and how far it may turn the cabin beyond the vehicle.
 
-    rate, smoothing: of the turn beyond the vehicle's own; rate in rad/s, and an acceleration of at most 2 rate / (e smoothing):
-        as the slow turn of `blend` has them.
-    force_unit, rate_unit: errors of specific force (m/s^2) and of angular rate (rad/s) that weigh the same: what a pilot
-        begins to notice sideways and in roll (Reid & Nahon, UTIAS Report 296, 1985).
+    rate, smoothing: of the turn beyond the vehicle's own; rate in rad/s, and an acceleration of at
+        most 2 rate / (e smoothing): as the slow turn of `blend` has them.
+    force_unit, rate_unit: errors of specific force (m/s^2) and of angular rate (rad/s) that weigh
+        the same: what a pilot begins to notice sideways and in roll (Reid & Nahon, UTIAS Report
+            296, 1985).
     planning_rate: knots of the plan, Hz (assumed: far above the frequencies of what it may do).
-    rounds: how often rotation and stage are planned both at once, after one for the other. Of the bundled flights one gains
-        more than 1 % by the second round, and none by the third.
+    rounds: how often rotation and stage are planned both at once, after one for the other. Of the
+        bundled flights one gains more than 1 % by the second round, and none by the third.
     """
 
     rate: float = radians(3.0)

@@ -56,7 +56,8 @@ def consistency(
 def reintegrate(flight: RunColumns, sphere_from_wheels: ArrayLike) -> Array:
     """Orientations (n, 4) from the first one and the wheels alone, q' = 1/2 Omega o q with Omega = J omega (Eq. 18, 20).
 
-    The turn over a tick is the integral of the cubic through the logged speeds and accelerations at its ends, plus the
+    The turn over a tick is the integral of the cubic through the logged speeds and accelerations at
+    its ends, plus the
     Magnus commutator of `rotation.integrate_base`: fourth order in the step.
     """
     course = _Course(sphere_from_wheels)

@@ -86,13 +86,14 @@ def correlation(
 ) -> tuple[float, float]:
     """Peak of the normalised cross-correlation of two signals (n,) and the delay (s) at which it stands.
 
-    At every shift within +-`WINDOW` the correlation is Pearson's, with means and variances of the ticks that overlap at that
-    shift, so that a pure delay gives 1 at the delay whatever the signal does at its ends. The peak is interpolated by a
-    parabola through three ticks; a delay at the end of the window has no peak inside it. Where shifts fit equally well, the
-    smallest is taken. The delay is positive when `delayed` is late. Ticks are `dt` (s) apart.
+    At every shift within +-`WINDOW` the correlation is Pearson's, with means and variances of the
+    ticks that overlap at that shift, so that a pure delay gives 1 at the delay whatever the signal
+    does at its ends. The peak is interpolated by a parabola through three ticks; a delay at the end
+    of the window has no peak inside it. Where shifts fit equally well, the smallest is taken. The
+    delay is positive when `delayed` is late. Ticks are `dt` (s) apart.
 
-    (0, 0) when one of the signals does not vary (its standard deviation is at most `smallest`), when there is no overlap, and
-    when the numbers are none.
+    (0, 0) when one of the signals does not vary (its standard deviation is at most `smallest`),
+    when there is no overlap, and when the numbers are none.
     """
     signals = Correlation(dt, smallest)
     signals.add(reference, delayed)
@@ -163,7 +164,8 @@ def _without(total: float, head: Array, tail: Array) -> Array:
 class _Products:
     """Sums over t of v[t] p[t + shift] for shifts up to a window either way, by transforms of pieces: n log(piece) operations.
 
-    A piece is as long as a transform holds, with a window of p before it and one behind, for which it waits.
+    A piece is as long as a transform holds, with a window of p before it and one behind, for which
+    it waits.
     """
 
     def __init__(self, window: int, size: int) -> None:

@@ -14,11 +14,12 @@ def cost(flight: RunColumns) -> dict[str, float]:
     """The root mean square, over the flight, of the errors of specific force and angular rate at the rider's head.
 
     - cost: sqrt( mean |felt - vehicle specific force|^2 / force_unit^2 + mean |felt - vehicle rate|^2 / rate_unit^2 );
-    - cost_force, cost_rate: the two terms by themselves, so that cost^2 = cost_force^2 + cost_rate^2.
+    - cost_force, cost_rate: the two terms by themselves, so that cost^2 = cost_force^2 +
+        cost_rate^2.
 
-    The units are those of `PreviewParameters`, what a pilot begins to notice: a cost of 1 is an error at that threshold, all
-    the way. A direction of the force that is off by 1 deg costs 1 where the force is gravity's, and 3 deg/s beyond the
-    vehicle's cost 1.
+    The units are those of `PreviewParameters`, what a pilot begins to notice: a cost of 1 is an
+    error at that threshold, all the way. A direction of the force that is off by 1 deg costs 1
+    where the force is gravity's, and 3 deg/s beyond the vehicle's cost 1.
     """
     return cost_of(deviation(flight))
 

@@ -1,6 +1,7 @@
 """Scaled, missing and false cues: what the rider should have felt and did not, and the other way round.
 
-The kinds are those of Grant & Reid, "Motion Washout Filter Tuning: Rules and Requirements", J. Aircraft 34 (1997).
+The kinds are those of Grant & Reid, "Motion Washout Filter Tuning: Rules and Requirements", J.
+Aircraft 34 (1997).
 """
 
 from math import radians

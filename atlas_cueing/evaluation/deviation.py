@@ -69,11 +69,14 @@ class Deviation:
 def deviation(flight: RunColumns) -> dict[str, float]:
     """Rms, 95 % quantile and maximum over the flight of what the rider has against what the pilot has.
 
-    - force_..._m_s2: length of the difference of the specific forces at the head, felt - vehicle, cabin FRD;
-    - direction_..._rad: angle between them, over the ticks at which both are larger than `DIRECTION_FORCE` (near free fall a
-      force has no direction to speak of); direction_counted_share is the share of those ticks;
+    - force_..._m_s2: length of the difference of the specific forces at the head, felt - vehicle,
+        cabin FRD;
+    - direction_..._rad: angle between them, over the ticks at which both are larger than
+      `DIRECTION_FORCE` (near free fall a force has no direction to speak of);
+      direction_counted_share is the share of those ticks;
     - rate_..._rad_s: length of the difference of the angular rates, felt - vehicle, cabin FRD;
-    - attitude_..._rad: angle of the rotation from the vehicle's attitude (`vehicle_attitude`) to the cabin's.
+    - attitude_..._rad: angle of the rotation from the vehicle's attitude (`vehicle_attitude`) to
+        the cabin's.
     """
     return gathered(Deviation(), flight)
 
@@ -81,8 +84,9 @@ def deviation(flight: RunColumns) -> dict[str, float]:
 def extra_rate(flight: RunColumns) -> dict[str, float]:
     """Cabin rate beyond the vehicle's, |felt - vehicle|, over the ticks at which the wheels are not limited.
 
-    extra_rate_rms_rad_s, extra_rate_p99_rad_s, extra_rate_max_rad_s: what the cueing turns the rider on its own account, with
-    what the actuators could not give left out; the same difference over all ticks is the rate error of `deviation`.
+    extra_rate_rms_rad_s, extra_rate_p99_rad_s, extra_rate_max_rad_s: what the cueing turns the
+    rider on its own account, with what the actuators could not give left out; the same difference
+    over all ticks is the rate error of `deviation`.
     """
     all_ticks = Deviation()
     gathered(all_ticks, flight)

@@ -69,13 +69,16 @@ class Fidelity:
 def likeness(flight: RunColumns) -> dict[str, float]:
     """Figures of specific force and angular rate along each axis of the cabin (forward x, right y, down z), also as perceived.
 
-    - ..._correlation and ..._delay_s: peak of the cross-correlation and how late the platform is there (`correlation`), both 0
-      when pilot's or rider's signal varies by no more than `VARIATION` of the threshold;
-    - ..._missing_share, ..._false_share, ..._scaled_share: cues by `cue_shares`, as departures from rest upright.
+    - ..._correlation and ..._delay_s: peak of the cross-correlation and how late the platform is
+      there (`correlation`), both 0 when pilot's or rider's signal varies by no more than
+      `VARIATION` of the threshold;
+    - ..._missing_share, ..._false_share, ..._scaled_share: cues by `cue_shares`, as departures from
+        rest upright.
 
-    Names begin with force_x and so on; with perceived_force_x where both signals have gone through the otoliths, or the canals,
-    at rest in the first tick's steady state before it. The thresholds are the same there: they are the organs', at their
-    output. perceived_force_rms_m_s2, perceived_rate_rms_rad_s, ..._p95_..., ..._max_... are the error vector's length then.
+    Names begin with force_x and so on; with perceived_force_x where both signals have gone through
+    the otoliths, or the canals, at rest in the first tick's steady state before it. The thresholds
+    are the same there: they are the organs', at their output. perceived_force_rms_m_s2,
+        perceived_rate_rms_rad_s, ..._p95_..., ..._max_... are the error vector's length then.
 
     Ticks are taken as evenly spaced, as far apart as those of the first block are on average.
     """

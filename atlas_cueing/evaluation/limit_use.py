@@ -72,9 +72,10 @@ class LimitUse:
 def limit_use(flight: RunColumns, wheels: WheelLimits, stage: StageLimits) -> dict[str, float]:
     """Largest use of each limit over the flight and over wheels or axes, as a fraction of the limit.
 
-    `..._logged` is the quantity in the log; `..._difference` the slope of the next lower one between two ticks, which the
-    mean of the true quantity over the tick equals; `..._second_difference` the curvature of the speed over three ticks: its
-    second divided difference times two, the mean second derivative weighted by a hat.
+    `..._logged` is the quantity in the log; `..._difference` the slope of the next lower one
+    between two ticks, which the mean of the true quantity over the tick equals;
+    `..._second_difference` the curvature of the speed over three ticks: its second divided
+        difference times two, the mean second derivative weighted by a hat.
     """
     return gathered(LimitUse(wheels, stage), flight)
 

@@ -44,9 +44,10 @@ def windows(data: bytes, dtype: np.dtype[np.void]) -> NDArray[np.void]:
 def _fills(data: bytes, index: Starts) -> bool:
     """Whether the index names messages that follow one another from the first byte of the data to the last.
 
-    They do if the first byte is a start, if every message ends where one starts or with the data, and if their lengths add up
-    to the data's: from the first byte on, one leads to the next up to the end, which uses up all the bytes, so there are no
-    others. Those of a channel have to be in order, which is theirs in time.
+    They do if the first byte is a start, if every message ends where one starts or with the data,
+    and if their lengths add up to the data's: from the first byte on, one leads to the next up to
+    the end, which uses up all the bytes, so there are no others. Those of a channel have to be in
+    order, which is theirs in time.
     """
     if not all(np.all(of_channel[1:] > of_channel[:-1]) for of_channel in index.values()):
         return False

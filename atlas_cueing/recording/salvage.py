@@ -88,9 +88,9 @@ def rewrite(
 ) -> None:
     """Write a finished log of all that was found to `output`, under a passing name until it is complete.
 
-    log: the contents of `found`, when they have been read. Chunks of ours are copied, with all channels; what lies in any
-    other way is written anew as this program does, without the channels that it cannot read.
-    Raises LogError as `contents`, and OSError when it cannot be written.
+    log: the contents of `found`, when they have been read. Chunks of ours are copied, with all
+    channels; what lies in any other way is written anew as this program does, without the channels
+    that it cannot read. Raises LogError as `contents`, and OSError when it cannot be written.
     """
     log = log or contents(found)
     destination = Destination(output)

@@ -1,8 +1,8 @@
 """`/tf`: foxglove.FrameTransforms base -> stage -> cabin with a fixed layout on the wire, for viewers.
 
-The stage is moved by p_WS_W and the cabin turned by q_WS. Field numbers are those of `schemas.transforms_schema`. The
-varints of the time stamp are padded to five bytes, which every decoder reads as the same numbers, so that all messages have
-one length.
+The stage is moved by p_WS_W and the cabin turned by q_WS. Field numbers are those of
+`schemas.transforms_schema`. The varints of the time stamp are padded to five bytes, which every
+decoder reads as the same numbers, so that all messages have one length.
 """
 
 from typing import Any

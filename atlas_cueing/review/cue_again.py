@@ -22,10 +22,11 @@ _FLOWN = ("vehicle", "duration_s")  # keys of what has been flown already
 def cue_again(path: str | Path, settings: Sequence[str], output: str | Path) -> Scenario:
     """Write `output`, the flight of the log `path` cued anew with `KEY=VALUE` settings on top of the log's own scenario.
 
-    Without settings, cue, motion and wheels are the log's own to the last bit. With another method, what the old one had by
-    default is left to the new one's defaults, as in a run; what was set for the old one stays where the new one knows the key.
-    States, result and reason are the flight's, so they are kept. Gives the scenario. Raises InputError (nothing was written)
-    for settings that do not fit, LogError for a log that is damaged or holds no scenario.
+    Without settings, cue, motion and wheels are the log's own to the last bit. With another method,
+    what the old one had by default is left to the new one's defaults, as in a run; what was set for
+    the old one stays where the new one knows the key. States, result and reason are the flight's,
+    so they are kept. Gives the scenario. Raises InputError (nothing was written) for settings that
+    do not fit, LogError for a log that is damaged or holds no scenario.
     """
     _refuse_flown(settings)
     output = Path(output)

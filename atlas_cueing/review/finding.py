@@ -43,7 +43,8 @@ def exceeding(
 ) -> list[Finding]:
     """One finding for each column of `values` (n,) or (n, k) whose magnitude exceeds `allowed` anywhere.
 
-    `time` (n,) in s; `allowed` broadcasts against (n, k), in `unit`. NaN is not judged here: `numbers` has found it already.
+    `time` (n,) in s; `allowed` broadcasts against (n, k), in `unit`. NaN is not judged here:
+    `numbers` has found it already.
     """
     size = np.abs(np.atleast_2d(values.T).T)
     bounds = np.broadcast_to(np.asarray(allowed, dtype=np.float64), size.shape)

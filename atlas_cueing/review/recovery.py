@@ -39,8 +39,8 @@ class Recovered:
 def recover_log(broken: str | Path, output: str | Path) -> Recovered:
     """Write every complete chunk of `broken` into the finished log `output`, which is replaced if it exists.
 
-    Raises InputError when there is no file `broken`, LogError when it holds nothing to recover, and OutputError when `output`
-    cannot be written.
+    Raises InputError when there is no file `broken`, LogError when it holds nothing to recover, and
+    OutputError when `output` cannot be written.
     """
     found = salvage(Path(broken), largest_content(Path(broken)))
     log = contents(found)

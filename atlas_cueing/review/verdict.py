@@ -70,7 +70,8 @@ class Review:
 def review_log(path: str | Path) -> Review:
     """Read a log and judge it by its own numbers, with arithmetic that shares nothing with what wrote it.
 
-    Raises InputError when there is no such file, and LogError when it is damaged, not a log of ours, or has no platform.
+    Raises InputError when there is no such file, and LogError when it is damaged, not a log of
+    ours, or has no platform.
     """
     return judge(open_run(path))
 

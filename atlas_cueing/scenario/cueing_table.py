@@ -1,7 +1,7 @@
 """The `[cueing]` table: one class for each method, mapped to the dataclasses of `atlas_cueing.cueing`.
 
-Defaults come from those dataclasses; here are only units for people and the ranges that make sense. A new method is one
-more class, and its name in `METHODS` and `CueingTable`.
+Defaults come from those dataclasses; here are only units for people and the ranges that make sense.
+A new method is one more class, and its name in `METHODS` and `CueingTable`.
 """
 
 from math import degrees, inf, radians

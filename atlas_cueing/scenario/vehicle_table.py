@@ -1,6 +1,7 @@
 """The `[vehicle]` table: a JSBSim script, an aircraft with initial conditions and timed inputs, or test signals.
 
-Two sources fly only live: `flightgear`, a simulator that sends packets to a port here, and `recording`, a log played back.
+Two sources fly only live: `flightgear`, a simulator that sends packets to a port here, and
+    `recording`, a log played back.
 """
 
 from collections.abc import Collection

@@ -16,7 +16,8 @@ def felt(
 
     f = R_SW (a + alpha x r + w x (w x r) - g_W) with r = R_WS head_S and g_W = (0, 0, -9.80665).
 
-    q_WS (n, 4); w_WS_W rad/s, alpha_WS_W rad/s^2, a_WS_W m/s^2 (n, 3) in W; head_S (3,) m from the sphere centre in S.
+    q_WS (n, 4); w_WS_W rad/s, alpha_WS_W rad/s^2, a_WS_W m/s^2 (n, 3) in W; head_S (3,) m from the
+    sphere centre in S.
     """
     q, w, alpha, a, head = (
         np.asarray(x, dtype=np.float64) for x in (q_WS, w_WS_W, alpha_WS_W, a_WS_W, head_S)

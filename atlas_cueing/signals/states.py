@@ -22,7 +22,8 @@ from ..rotation import Quat, Vec3
 class VehicleState:
     """Vehicle at `time` (s): attitude, body rates (rad/s, FRD) and specific force at the pilot's eye (m/s^2, FRD).
 
-    The force is scaled by standard gravity over local gravity, so that a vehicle at rest shows (0, 0, -9.80665) anywhere.
+    The force is scaled by standard gravity over local gravity, so that a vehicle at rest shows (0,
+    0, -9.80665) anywhere.
     """
 
     time: Final[float]

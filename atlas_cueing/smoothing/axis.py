@@ -4,14 +4,16 @@ Within one tick of length h, two halves of constant jerk lead from (v, a) to any
 
     a1 - a = (j1 + j2) h / 2        v1 - v - a h = (3 j1 + j2) h^2 / 8
 
-If both stay within the jerk limit, and the acceleration between them within its own, that step is flown: it has the least
-peak jerk, and a feasible cue passes unchanged. Otherwise ruckig plans (velocity interface; Berscheid & Kroeger, RSS 2021).
+If both stay within the jerk limit, and the acceleration between them within its own, that step is
+flown: it has the least peak jerk, and a feasible cue passes unchanged. Otherwise ruckig plans
+    (velocity interface; Berscheid & Kroeger, RSS 2021).
 
-Traps of ruckig 0.19 closed here: non-finite numbers and short lists reach its C++ unchecked, so they are refused before the
-call; an error leaves old values in its output, so a call returns a fresh state or raises; `update` goes on along the old plan
-when the input repeats itself, so every step is a fresh `calculate`; positions are re-based to zero at every step, so an
-angle may grow for ever; the velocity interface passes the speed limit on its way to an infeasible target, so targets are
-clipped first. `intermediate_positions`, which would call a cloud service, is never set.
+Traps of ruckig 0.19 closed here: non-finite numbers and short lists reach its C++ unchecked, so
+they are refused before the call; an error leaves old values in its output, so a call returns a
+fresh state or raises; `update` goes on along the old plan when the input repeats itself, so every
+step is a fresh `calculate`; positions are re-based to zero at every step, so an angle may grow for
+ever; the velocity interface passes the speed limit on its way to an infeasible target, so targets
+are clipped first. `intermediate_positions`, which would call a cloud service, is never set.
 """
 
 # mypyc: runs every tick

@@ -98,7 +98,8 @@ class SphereSmoothing:
     def _to_go(self, cue: Cue) -> Vec3:
         """Rotation vector (W) that would be left at the end of the tick if the sphere took the cue's rate (trapezoid).
 
-        By the shorter way, but a catch-up under way is not turned round by a cue that wanders past half a turn.
+        By the shorter way, but a catch-up under way is not turned round by a cue that wanders past
+        half a turn.
         """
         self._left = continuous(difference(self.q_WS, cue.q_WS), self._left)
         to_go = log_unwound(self._left)

@@ -96,9 +96,10 @@ def stop_bound(v: float, a: float, a_max: float, j_max: float) -> float:
 def approach(distance: float, gain: float, a_max: float, j_max: float) -> tuple[float, float]:
     """Speed at which to close a distance d >= 0 so as to stop at its end, and the slope of that speed over d, 1/s.
 
-    The least of three, so that no deceleration (speed times slope) goes beyond a_max: gain d; from d = A / gain^2 on, with
-    the same slope there, sqrt(2 A (d - A / 2 gain^2)); and the speed from which the jerk-limited stop from a = 0 takes d,
-    d = v sqrt(v / J) below v = A^2 / J and d = v/2 (v / A + A / J) above.
+    The least of three, so that no deceleration (speed times slope) goes beyond a_max: gain d; from
+    d = A / gain^2 on, with the same slope there, sqrt(2 A (d - A / 2 gain^2)); and the speed from
+    which the jerk-limited stop from a = 0 takes d, d = v sqrt(v / J) below v = A^2 / J and d = v/2
+    (v / A + A / J) above.
     """
     if distance * gain * gain <= a_max and distance * gain * gain * gain <= j_max:
         return gain * max(distance, 0.0), gain

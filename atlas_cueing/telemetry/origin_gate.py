@@ -1,7 +1,8 @@
 """A door in front of a WebSocket server: lets in whoever is no web page, and web pages of known origin only.
 
-A browser lets any page connect to any port of this machine, and tells the server only the page's origin (RFC 6455, 10.2). A
-server that does not look at it can be put behind this gate, at an address that nobody guesses.
+A browser lets any page connect to any port of this machine, and tells the server only the page's
+origin (RFC 6455, 10.2). A server that does not look at it can be put behind this gate, at an
+address that nobody guesses.
 """
 
 import asyncio

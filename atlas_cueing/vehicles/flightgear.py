@@ -11,7 +11,8 @@
     vcas ... w                                      eight floats; not used
     A_X, A_Y, A_Z pilot                             float; ft/s^2: specific force at the pilot's eye, body FRD
 
-A packet has no time of the simulation and no number. Floats give an attitude good to 3e-7 rad and a force to 4e-6 m/s^2.
+A packet has no time of the simulation and no number. Floats give an attitude good to 3e-7 rad and a
+force to 4e-6 m/s^2.
 """
 
 from dataclasses import dataclass
@@ -66,14 +67,15 @@ class FlightgearFlight:
 def decode(packet: bytes, time: float, bounds: Bounds) -> VehicleState:
     """State in a packet, called `time` (s): attitude, body rates and specific force as in `signals.VehicleState`.
 
-    The force is scaled by standard gravity over normal gravity at the packet's latitude and altitude, which takes in the
-    Earth's turn, so that a vehicle at rest shows (0, 0, -9.80665) anywhere. The sign of the quaternion is from_euler's.
+    The force is scaled by standard gravity over normal gravity at the packet's latitude and
+    altitude, which takes in the Earth's turn, so that a vehicle at rest shows (0, 0, -9.80665)
+    anywhere. The sign of the quaternion is from_euler's.
 
-    Body rates are worth less near a pitch of +-90 deg, where the Euler rates grow without bounds: their rounding adds some
-    1e-7 / cos(theta)^2 of the true rate.
+    Body rates are worth less near a pitch of +-90 deg, where the Euler rates grow without bounds:
+    their rounding adds some 1e-7 / cos(theta)^2 of the true rate.
 
-    Raises PacketError for another version, a wrong size, numbers that are not finite, angles out of range, and whatever
-    `bounds` objects to.
+    Raises PacketError for another version, a wrong size, numbers that are not finite, angles out of
+    range, and whatever `bounds` objects to.
     """
     _check_kind(packet)
     _, _, longitude, latitude, altitude, height, phi, theta, psi, *rest = _FIELDS.unpack_from(
@@ -112,8 +114,8 @@ def decode(packet: bytes, time: float, bounds: Bounds) -> VehicleState:
 def normal_gravity(latitude: float, altitude: float) -> float:
     """Gravity of the turning ellipsoid (m/s^2) at a geodetic latitude (rad) and an altitude above it (m).
 
-    On the ellipsoid Somigliana's formula. Above it the inverse square that begins as the series of WGS 84 does; the series
-    itself turns upwards again some thousand kilometres up.
+    On the ellipsoid Somigliana's formula. Above it the inverse square that begins as the series of
+    WGS 84 does; the series itself turns upwards again some thousand kilometres up.
     """
     s2 = sin(latitude) ** 2
     surface = _GRAVITY_AT_EQUATOR * (1.0 + _SOMIGLIANA * s2) / sqrt(1.0 - _ECCENTRICITY_2 * s2)

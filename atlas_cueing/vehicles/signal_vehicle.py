@@ -1,17 +1,19 @@
 """Test signals as a vehicle: known rates and forces, to measure what the rest of the pipeline makes of them.
 
-The vehicle begins level and at rest. Its body rates are sums of signals, its attitude is their integral, and its specific
-force at the pilot's eye is
+The vehicle begins level and at rest. Its body rates are sums of signals, its attitude is their
+integral, and its specific force at the pilot's eye is
 
     f_B = R_BN (0, 0, -g) + signals     `force_follows_attitude` (default): turned in place, gravity moves in its axes
     f_B =      (0, 0, -g) + signals     held: a coordinated vehicle, whose turns are not felt as force
 
-The objective motion cueing test (ICAO Doc 9625; R. Hosman & S. Advani, Aeronautical Journal 120, 2016) drives one axis at a
-time with sines and asks for rotation and specific force at the rider's place: four kinds of transfer function. They are well
-defined here because the signals are the only inputs. With the force following, a rotation brings the gravity component that
-belongs to it and nothing else, so rotation to force can be compared with the vehicle's own g / s. Held, rates and forces are
-independent inputs, and any force felt in answer to a rotation is a false cue; the response with the force following is this
-one plus that to a force of g / s. That the test means the former is our reading, not a quotation.
+The objective motion cueing test (ICAO Doc 9625; R. Hosman & S. Advani, Aeronautical Journal 120,
+2016) drives one axis at a time with sines and asks for rotation and specific force at the rider's
+place: four kinds of transfer function. They are well defined here because the signals are the only
+inputs. With the force following, a rotation brings the gravity component that belongs to it and
+nothing else, so rotation to force can be compared with the vehicle's own g / s. Held, rates and
+forces are independent inputs, and any force felt in answer to a rotation is a false cue; the
+response with the force following is this one plus that to a force of g / s. That the test means the
+former is our reading, not a quotation.
 """
 
 from collections.abc import Sequence
@@ -56,10 +58,10 @@ _STEP_TOLERANCE = 1e-6  # steps; a duration of n dt is n steps however it was ro
 class Signal:
     """A smooth signal on one axis: zero until `time` and after `time` + `duration` (s), with two continuous derivatives.
 
-    axis: body rate about, or specific force along, the forward, right or down axis of the body; what signals of one axis ask
-        for is added.
-    shape: sine; sweep, a sine whose frequency rises or falls exponentially (A. Farina, AES 108th Convention, 2000); step, up
-        and back; doublet, half of the time up and half down.
+    axis: body rate about, or specific force along, the forward, right or down axis of the body;
+        what signals of one axis ask for is added.
+    shape: sine; sweep, a sine whose frequency rises or falls exponentially (A. Farina, AES 108th
+        Convention, 2000); step, up and back; doublet, half of the time up and half down.
     amplitude: rad/s or m/s^2; with a negative one the signal begins the other way.
     ramp: s in which it comes and goes, in and out; a doublet has one at each end of both halves.
     frequency, end_frequency: rad/s; of a sine the first, of a sweep both.

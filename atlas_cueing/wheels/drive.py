@@ -30,7 +30,8 @@ class Wheels:
     def torques(self, moment_W: Vec3) -> Vec3:
         """Torque (N m) of each wheel that puts `moment_W` (N m, W) on the sphere at rest, without friction: J^T M.
 
-        It is the dual of Omega = J omega: both do the same work, M . Omega = tau . omega, for every omega.
+        It is the dual of Omega = J omega: both do the same work, M . Omega = tau . omega, for every
+        omega.
         """
         first, second, third = zip(*self.sphere_from_wheels, strict=True)
         return (dot(first, moment_W), dot(second, moment_W), dot(third, moment_W))

@@ -141,7 +141,8 @@ def test_no_ticks_at_all(name: str) -> None:
 def test_what_is_held_grows_by_quantiles_only() -> None:
     """Eight columns in single precision and a mark a tick, and the slack of memory that grows in place.
 
-    Looked at after whole pieces of the correlations, which wait for 8192 - 2 * 50 ticks at 100 Hz: seven of these blocks.
+    Looked at after whole pieces of the correlations, which wait for 8192 - 2 * 50 ticks at 100 Hz:
+    seven of these blocks.
     """
     flight = any_flight((8192 - 2 * 50) // 7, 8)
     figures = [make() for make in FIGURES.values()]

@@ -71,7 +71,8 @@ class FakeClock:
 class TumblingSource:
     """A vehicle that turns for ever about an axis that wanders, with every failing of an input on demand.
 
-    quiet: nothing comes from now on. bad: so many samples are refused from now on. jumps: it is somewhere else at the next
+    quiet: nothing comes from now on. bad: so many samples are refused from now on. jumps: it is
+        somewhere else at the next
     read. raises: every read does.
     """
 

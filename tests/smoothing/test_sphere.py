@@ -193,7 +193,8 @@ def test_a_small_error_decays_with_a_time_constant_of_a_quarter_second(
 ) -> None:
     """exp(-4 t) from the first tick on: speed and acceleration asked for are those of one motion, |e|'' = 4^2 |e|.
 
-    With the acceleration the other way round, or left out, each tick would cover another way than the speed at its end tells.
+    With the acceleration the other way round, or left out, each tick would cover another way than
+    the speed at its end tells.
     """
     size = 1e-4 * dt
     cues = [UPRIGHT] + [standing(size * AXIS)] * int(1.5 / dt)

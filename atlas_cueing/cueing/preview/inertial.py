@@ -1,7 +1,8 @@
 """The flight seen from A: axes that do not turn, and that lie along the cabin's own when the flight begins.
 
-If the cabin turned with the vehicle's body rates and nothing else, it would stand in A as `q_AS` says. Whatever a method adds
-is a turn of A against W, at the rate it adds; so in A the vehicle's turning drops out of the problem.
+If the cabin turned with the vehicle's body rates and nothing else, it would stand in A as `q_AS`
+says. Whatever a method adds is a turn of A against W, at the rate it adds; so in A the vehicle's
+turning drops out of the problem.
 """
 
 from collections.abc import Sequence

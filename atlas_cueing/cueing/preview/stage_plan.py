@@ -1,9 +1,10 @@
 """The stage of the plan: the best motion inside the rails, over the whole flight and for each axis of W.
 
-The stage should have the acceleration d that the rider's head lacks. A cubic spline p(t) has a constant jerk between knots;
-the plan minimises mean((p'' - d)^2) with |p|, |p'|, |p''|, |p'''| within the limits, from rest in the centre to rest. Speeds
-and accelerations of the control points are unknowns of their own, tied to the positions by equations: with positions alone,
-whose third differences count by 1 / interval^3, the solver runs out of digits on long flights.
+The stage should have the acceleration d that the rider's head lacks. A cubic spline p(t) has a
+constant jerk between knots; the plan minimises mean((p'' - d)^2) with |p|, |p'|, |p''|, |p'''| within the limits, from rest in the centre to rest. Speeds
+and accelerations of the control points are unknowns of their own, tied to the positions by
+equations: with positions alone, whose third differences count by 1 / interval^3, the solver runs
+    out of digits on long flights.
 """
 
 import numpy as np

@@ -8,11 +8,13 @@ from math import exp
 class AdaptiveGain:
     """Share g, 0 to 1, of an imagined motion that would have left the least rms error over the last while.
 
-    A demand d that is met by g times the acceleration a of an imagined stage leaves an error of mean square
-    <d^2> - 2 g <d a> + g^2 <a^2>, least at g = <d a> / <a^2>. Where the demand lasts, what a stage gives now it takes back
-    later with nothing gained, <d a> is small, and so is g: the lasting part belongs to the turn of the cabin. The idea of
-    adapting a washout's gains to what they are good for is that of R. V. Parrish, J. E. Dieudonne, R. L. Bowles & D. J. Martin,
-    "Coordinated Adaptive Washout for Motion Simulators", Journal of Aircraft 12(1), 1975; theirs follow a gradient.
+    A demand d that is met by g times the acceleration a of an imagined stage leaves an error of
+    mean square <d^2> - 2 g <d a> + g^2 <a^2>, least at g = <d a> / <a^2>. Where the demand lasts,
+    what a stage gives now it takes back later with nothing gained, <d a> is small, and so is g: the
+    lasting part belongs to the turn of the cabin. The idea of adapting a washout's gains to what
+    they are good for is that of R. V. Parrish, J. E. Dieudonne, R. L. Bowles & D. J. Martin,
+    "Coordinated Adaptive Washout for Motion Simulators", Journal of Aircraft 12(1), 1975; theirs
+    follow a gradient.
     """
 
     def __init__(self, dt: float, memory: float, first: float, doubt: float) -> None:

@@ -102,7 +102,8 @@ def planning_ticks(dt: float, rate: float) -> int:
 def block_ticks(period: int, horizon: float, blocks: int) -> list[int]:
     """Ticks of each block: whole planning periods, the first block one, growing to about `horizon` ticks together.
 
-    Since blocks begin and end where plans do, a plan always begins within one block of the plan before.
+    Since blocks begin and end where plans do, a plan always begins within one block of the plan
+    before.
     """
     growth, ends = (1.0 + horizon / period) ** (1.0 / blocks), [0]
     for k in range(1, blocks + 1):

@@ -1,8 +1,8 @@
 """What the stage should do: part of the acceleration that the rider's head lacks, inside the travel.
 
-A rider feels f = R_SW (a_head - g_W), so the head should have a_head = R_WS f_vehicle + g_W. For a head off the centre the
-sphere's own turning gives alpha x r + w x (w x r) of it; the rest is asked of the stage, and each axis does with it what its
-planner can (`horizon`, `onset`).
+A rider feels f = R_SW (a_head - g_W), so the head should have a_head = R_WS f_vehicle + g_W. For a
+head off the centre the sphere's own turning gives alpha x r + w x (w x r) of it; the rest is asked
+of the stage, and each axis does with it what its planner can (`horizon`, `onset`).
 """
 
 # mypyc: runs every tick

@@ -1,18 +1,21 @@
 """The last thing before the drives: a command is what the platform can do next, or the certified stop takes its place.
 
-It shares no arithmetic with smoothing, whose mistakes it is there to catch. What was put out last is (p, v, a) per wheel or
-stage axis; with travel T, speed V, acceleration A and jerk J at most, and ticks of length h, the next one is fit only if some
-motion of jerk at most J leads to it in one tick. Let D = a1 - a0 and m = h (a0 + a1) / 2 - (v1 - v0). Then, exactly,
+It shares no arithmetic with smoothing, whose mistakes it is there to catch. What was put out last
+is (p, v, a) per wheel or stage axis; with travel T, speed V, acceleration A and jerk J at most, and
+ticks of length h, the next one is fit only if some motion of jerk at most J leads to it in one
+tick. Let D = a1 - a0 and m = h (a0 + a1) / 2 - (v1 - v0). Then, exactly,
 
     |D| <= J h        |m| <= (J h^2 - D^2 / J) / 4        -f(h + D / J) <= 2 (p1 - c) <= f(h - D / J)
 
     c = p0 + h (v0 + v1) / 2 - h^2 D / 8              f(d) = J (h^3 / 12 - d^3 / 48) - m^2 / (J d)
 
-since the extremes have jerk J at both ends of the tick and -J for d / 2 between, or the reverse: D fixes how long that is, m
-where it lies, and 2 (p1 - c) is the jerk's second moment about the middle of the tick. As such a motion goes through all
-outputs, their differences keep J to any order; that they keep A and V as well is asked of each pair.
+since the extremes have jerk J at both ends of the tick and -J for d / 2 between, or the reverse: D
+fixes how long that is, m where it lies, and 2 (p1 - c) is the jerk's second moment about the middle
+of the tick. As such a motion goes through all outputs, their differences keep J to any order; that
+they keep A and V as well is asked of each pair.
 
-Then its stop: speed, and on the stage travel, hold from there to standstill, in continuous time. So every output has a
+Then its stop: speed, and on the stage travel, hold from there to standstill, in continuous time. So
+    every output has a
 successor: one tick along its own stop. Each wheel and each axis of W stops on its own.
 """
 
@@ -41,7 +44,8 @@ _Checks = tuple[tuple[str, float, float, float], ...]  # what, value, lowest and
 class Command:
     """What the drives shall do at `time` (s): each wheel's speed (rad/s) and acceleration (rad/s^2), and the stage's motion.
 
-    The stage's position (m), velocity (m/s) and acceleration (m/s^2) are those of the sphere's centre in W.
+    The stage's position (m), velocity (m/s) and acceleration (m/s^2) are those of the sphere's
+    centre in W.
     """
 
     time: float

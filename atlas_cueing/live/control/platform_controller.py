@@ -135,7 +135,8 @@ class PlatformController:
     def stopping(self, before: Motion, vehicle: VehicleState, command: Command) -> Tick:
         """A tick that the guard made: the motion is what its command does to the platform, which moved as `before` a tick ago.
 
-        The turn is J times the wheels' own, by the trapezoid less dt^2/12 of the change of acceleration (Euler-Maclaurin).
+        The turn is J times the wheels' own, by the trapezoid less dt^2/12 of the change of
+        acceleration (Euler-Maclaurin).
         """
         dt = self._dt
         w, alpha = apply(self._J, command.wheel_speed), apply(self._J, command.wheel_acceleration)

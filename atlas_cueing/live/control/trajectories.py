@@ -144,10 +144,10 @@ class ParkTrajectory:
 class EngageTrajectory:
     """From rest to a cue that moves by itself: x = s x_cue + (1 - s) x_0 with s = smoothstep(t / T).
 
-    On the sphere the same is done tick by tick: the orientation takes the share s of the cue's own turn, and then, of what is
-    left to the cue, the share (s1 - s0) / (1 - s0) that brings s to its next value; its rate is s w_cue + s' / (1 - s) e, with
-    e = log(q_cue q*) the turn still left: the shorter way to begin with, and not changed over for a cue that runs away past
-    half a turn.
+    On the sphere the same is done tick by tick: the orientation takes the share s of the cue's own
+    turn, and then, of what is left to the cue, the share (s1 - s0) / (1 - s0) that brings s to its
+    next value; its rate is s w_cue + s' / (1 - s) e, with e = log(q_cue q*) the turn still left:
+    the shorter way to begin with, and not changed over for a cue that runs away past half a turn.
     """
 
     def __init__(self, motion: Motion, cue: Cue, dt: float, duration: float) -> None:
@@ -204,8 +204,8 @@ def calm_time(angle: float, distance: float) -> float:
 def smoothstep(t: float) -> Vec3:
     """s(t) = 10 t^3 - 15 t^4 + 6 t^5 from 0 at t <= 0 to 1 at t >= 1, with its first and second derivative.
 
-    The lowest polynomial with s' = s'' = 0 at both ends: the path of least jerk from rest to rest (Flash & Hogan, J.
-    Neuroscience 5, 1985).
+    The lowest polynomial with s' = s'' = 0 at both ends: the path of least jerk from rest to rest
+    (Flash & Hogan, J. Neuroscience 5, 1985).
     """
     if t <= 0.0:
         return ZERO

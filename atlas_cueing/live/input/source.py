@@ -38,8 +38,9 @@ class Source(Protocol):
     def read(self, time: float, advance: bool) -> SourceReading:
         """The state at `time` (s since the loop's start, monotonic, strictly increasing from call to call).
 
-        advance: False lets the vehicle's own time stand still, as in a paused simulator; only sources that own their time obey.
-        Never waits, and does a bounded amount of work. Raises VehicleError when a model of our own fails.
+        advance: False lets the vehicle's own time stand still, as in a paused simulator; only
+        sources that own their time obey. Never waits, and does a bounded amount of work. Raises
+        VehicleError when a model of our own fails.
         """
 
     def pin(self) -> None:

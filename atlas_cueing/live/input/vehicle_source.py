@@ -17,10 +17,11 @@ MAX_STEPS = 50
 class VehicleSource:
     """Reads a vehicle at any time between its steps, without delay: the model is stepped just past the time asked for.
 
-    The vehicle's time begins at 0 with the first read and goes on with the clock, but for reads that do not advance: then the
-    vehicle stands still, with its attitude and force and no rates. So it does after its last state. A model too slow for the
-    clock, or a gap between two reads, costs at most MAX_STEPS steps a read; what is left over is not made up for, and the
-    vehicle's time falls behind.
+    The vehicle's time begins at 0 with the first read and goes on with the clock, but for reads
+    that do not advance: then the vehicle stands still, with its attitude and force and no rates. So
+    it does after its last state. A model too slow for the clock, or a gap between two reads, costs
+    at most MAX_STEPS steps a read; what is left over is not made up for, and the vehicle's time
+    falls behind.
 
     A jump between two steps is not turned through: its end is given as soon as it has begun.
     """

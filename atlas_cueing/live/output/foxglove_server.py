@@ -1,8 +1,9 @@
 """The live run in Foxglove: its WebSocket server in a process of its own, fed with the very messages that the log has.
 
-foxglove-sdk serves; as of 0.30 it listens where it is told and opens nothing else, but lets in web pages of any origin. So it
-stands behind an `OriginGate`, at a random address of 127.0.0.0/8. Its queue for each client is bounded and drops the oldest;
-no service, parameter, asset or publishing by clients is offered.
+foxglove-sdk serves; as of 0.30 it listens where it is told and opens nothing else, but lets in web
+pages of any origin. So it stands behind an `OriginGate`, at a random address of 127.0.0.0/8. Its
+queue for each client is bounded and drops the oldest; no service, parameter, asset or publishing by
+clients is offered.
 """
 
 import asyncio

@@ -1,7 +1,8 @@
 """How far a logged quantity may be from the integral of its logged derivative, when only the jerk is bounded.
 
-Between two ticks, h apart, nothing is logged; whatever the motion does there, its jerk keeps its limit J. That bounds both
-quadrature errors rigorously, for any way the actuators go through the tick.
+Between two ticks, h apart, nothing is logged; whatever the motion does there, its jerk keeps its
+limit J. That bounds both quadrature errors rigorously, for any way the actuators go through the
+tick.
 """
 
 from math import sqrt

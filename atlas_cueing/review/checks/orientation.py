@@ -56,7 +56,8 @@ def check_orientation(run: RecordedRun) -> list[Finding]:
 def unexplained(run: RecordedRun, w_W: Array, alpha_W: Array) -> Array:
     """Rotation vector (W, rad, (n - 1, 3)) by which each tick turned the sphere other than the rate w_W says.
 
-    The turn over a tick is the corrected trapezoid plus the Magnus commutator h^2/12 w1 x w0 of q' = 1/2 Omega o q.
+    The turn over a tick is the corrected trapezoid plus the Magnus commutator h^2/12 w1 x w0 of q'
+    = 1/2 Omega o q.
     """
     q, h = run.flight.motion_q_WS, np.diff(run.flight.time)
     expected = turn(w_W, alpha_W, h) + (h * h / 12.0)[:, None] * cross(w_W[1:], w_W[:-1])

@@ -57,10 +57,11 @@ class InitialConditions:
 class TimedInput:
     """From `time` (s) on, `property` goes to `value` (JSBSim's own unit), linearly within `ramp` (s) or at once when 0.
 
-    A ramp starts from the property's value at that moment; of two on one property the later takes over from wherever it is.
-    Inputs at time 0 are in effect before the first step and, without a ramp, during the trim and in the first state. So set
-    wind, gear and flaps at 0, but begin a manoeuvre later: with the stick held over there is nothing
-    to trim. Turbulence at 0 begins with the second state.
+    A ramp starts from the property's value at that moment; of two on one property the later takes
+    over from wherever it is. Inputs at time 0 are in effect before the first step and, without a
+    ramp, during the trim and in the first state. So set
+    wind, gear and flaps at 0, but begin a manoeuvre later: with the stick held over there is
+    nothing to trim. Turbulence at 0 begins with the second state.
     """
 
     time: float

@@ -1,6 +1,7 @@
 """Commands for the guard, axis by axis, and an examination of what it puts out that shares nothing with it but the limits.
 
-Axes 0 to 2 are the wheels, whose position nobody commands, 3 to 5 the stage's x, y, z; a state is (p, v, a).
+Axes 0 to 2 are the wheels, whose position nobody commands, 3 to 5 the stage's x, y, z; a state is
+(p, v, a).
 """
 
 from collections.abc import Iterable, Sequence
