@@ -219,8 +219,8 @@ class TestTheSender:
 
     @pytest.mark.parametrize(
         "host",
-        ["239.1.2.3", "224.0.0.1", "0.0.0.0", "255.255.255.255", "drive", "localhost", "::1", ""],
-    )  # noqa: S104
+        ["239.1.2.3", "224.0.0.1", "0.0.0.0", "255.255.255.255", "drive", "localhost", "::1", ""],  # noqa: S104
+    )
     def test_groups_and_names_are_refused_even_with_a_key(self, host: str) -> None:
         with pytest.raises(InputError, match=r"set-point receiver|cannot be sent"):
             SetPointSender(host, 5600, KEY)
