@@ -121,7 +121,7 @@ class RecordReader:
     def _take(self, size: int) -> bytes:
         data = self.stream.read(size)
         if len(data) < size:
-            raise LogError("the file is cut")
+            raise LogError("the file is cut" if self._position or data else "the file is empty")
         self._crc = zlib.crc32(data, self._crc)
         self._position += size
         return data

@@ -12,7 +12,7 @@ import pytest
 from waiting import until
 
 from atlas_cueing import rotation, run
-from atlas_cueing.cli import main
+from atlas_cueing.__main__ import main
 from atlas_cueing.errors import InputError, LogError
 
 from .conftest import SCRIPT, Command
@@ -23,6 +23,21 @@ START = [sys.executable, "-m", "atlas_cueing"]
 def test_the_installed_command_is_this_one() -> None:
     (script,) = entry_points(group="console_scripts", name="atlas-cueing")
     assert script.load() is main
+
+
+def test_an_interrupt_while_loading_is_no_traceback() -> None:
+    """The signal comes with the first import of the command line's own modules."""
+    code = (
+        "import sys, os, signal\n"
+        "class Interrupting:\n"
+        "    def find_spec(self, name, *_):\n"
+        "        if name == 'typer': os.kill(os.getpid(), signal.SIGINT)\n"
+        "sys.meta_path.insert(0, Interrupting())\n"
+        "from atlas_cueing.__main__ import main\n"
+        "sys.exit(main())"
+    )
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, check=False)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (130, b"", b"")
 
 
 def test_version(command: Command) -> None:
