@@ -2,7 +2,7 @@
 
 # mypyc: runs every tick
 
-from ..rotation import Mat3, Vec3, apply, dot
+from ..rotation import Mat3, apply
 from ..signals import Motion, WheelSpeeds
 from .geometry import Geometry
 
@@ -26,12 +26,3 @@ class Wheels:
         return WheelSpeeds(
             motion.time, apply(inverse, motion.w_WS_W), apply(inverse, motion.alpha_WS_W)
         )
-
-    def torques(self, moment_W: Vec3) -> Vec3:
-        """Torque (N m) of each wheel that puts `moment_W` (N m, W) on the sphere at rest, without friction: J^T M.
-
-        It is the dual of Omega = J omega: both do the same work, M . Omega = tau . omega, for every
-        omega.
-        """
-        first, second, third = zip(*self.sphere_from_wheels, strict=True)
-        return (dot(first, moment_W), dot(second, moment_W), dot(third, moment_W))

@@ -13,9 +13,8 @@ import numpy as np
 
 from ...errors import InputError
 from ...rotation import IDENTITY, Quat, Vec3, add, flip, integrate_body, normalise, scale
+from ...rotations import Array, rotate
 from ...signals import VehicleState
-from .quaternions import rotated
-from .spline import Array
 
 # m/s^2 and rad/s; nothing that flies has more, and the arithmetic stays far from overflow
 _ABSURD = 1e6
@@ -48,8 +47,8 @@ def inertial(states: Sequence[VehicleState], dt: float) -> Inertial:
     return Inertial(
         time=np.array([state.time for state in states]),
         q_AS=q_AS,
-        w_A=rotated(q_AS, np.array(w_S)),
-        f_A=rotated(q_AS, np.array([flip(state.f_B) for state in states])),
+        w_A=rotate(q_AS, np.array(w_S)),
+        f_A=rotate(q_AS, np.array([flip(state.f_B) for state in states])),
     )
 
 

@@ -9,11 +9,11 @@ can then begin a push that the cabin is going to take over.
 import numpy as np
 from scipy.sparse import block_diag, csc_array, diags_array, hstack, kron
 
+from ...rotations import Array, rotate_back
 from ...signals import STANDARD_GRAVITY, StageLimits
-from ..parameters import PreviewParameters
-from .quaternions import back
+from .preview_parameters import PreviewParameters
 from .solver import Bounds, minimise
-from .spline import Array, Spline
+from .spline import Spline
 from .stage_plan import acceleration, inside
 from .tilt_plan import slow, turning
 
@@ -63,6 +63,6 @@ def _felt(spline: Spline, q_WA: Array) -> csc_array:
     blocks = [kron(spline.value, STANDARD_GRAVITY * np.eye(3))]
     push = kron(acceleration(spline), np.ones((3, 1)))
     for axis in np.eye(3):
-        along_A = back(q_WA, np.broadcast_to(axis, (spline.ticks, 3)))
+        along_A = rotate_back(q_WA, np.broadcast_to(axis, (spline.ticks, 3)))
         blocks.append(diags_array(along_A.ravel()) @ push)
     return csc_array(hstack(blocks))

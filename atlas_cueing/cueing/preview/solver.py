@@ -12,7 +12,7 @@ import numpy as np
 from scipy.sparse import csc_array, csc_matrix, hstack, kron, triu, vstack
 
 from ...errors import InputError, MissingExtraError
-from .spline import Array
+from ...rotations import Array
 
 _SOLVED = ("Solved", "AlmostSolved")  # the latter to 5e-5 of the cost and 1e-4 of the bounds
 

@@ -7,13 +7,11 @@ difference over a whole interval. So bounds on control points and differences ar
 curve at all times, and everything a plan needs is a sparse matrix of few diagonals.
 """
 
-from typing import TypeAlias
-
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csc_array, diags_array, eye_array
 
-Array: TypeAlias = NDArray[np.float64]
+from ...rotations import Array
+
 _WEIGHTS = 4  # control points that shape the curve at one time
 
 

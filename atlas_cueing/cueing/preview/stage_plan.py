@@ -10,9 +10,10 @@ equations: with positions alone, whose third differences count by 1 / interval^3
 import numpy as np
 from scipy.sparse import csc_array, diags_array, eye_array, hstack, vstack
 
+from ...rotations import Array
 from ...signals import StageLimits
 from .solver import Bounds, minimise
-from .spline import Array, Spline, steps
+from .spline import Spline, steps
 
 _PLANNED_SHARE = 0.98  # of every limit; smoothing keeps a little of each
 # of acceleration and jerk towards the ends of the travel; smoothing goes there with 0.7 of each

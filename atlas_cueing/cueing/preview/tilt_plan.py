@@ -21,10 +21,11 @@ import numpy as np
 from scipy.sparse import csc_array, eye_array, kron
 
 from ...errors import InputError
+from ...rotations import Array, cross
 from ...signals import STANDARD_GRAVITY
-from ..parameters import PreviewParameters
+from .preview_parameters import PreviewParameters
 from .solver import Bounds, minimise
-from .spline import Array, Spline
+from .spline import Spline
 
 # of the rate and the acceleration; the rest is for the way from the control points to the unit
 # sphere
@@ -90,7 +91,7 @@ def sampled(spline: Spline, points: Array) -> Up:
     curve, slope = spline.value @ points, spline.slope @ points
     length = np.linalg.norm(curve, axis=1, keepdims=True)
     direction = curve / length
-    return Up(direction, np.cross(slope / length, direction))
+    return Up(direction, cross(slope / length, direction))
 
 
 def slow(spline: Spline, parameters: PreviewParameters) -> Bounds:

@@ -11,14 +11,14 @@ to its end, where the stage stands.
 
 from itertools import pairwise
 
-from ..parameters import HorizonParameters
 from .adaptive_gain import AdaptiveGain
 from .high_pass import HighPass, demand_bound
-from .mpc_qp import AxisLimits, HorizonProblem
+from .mpc_qp import AxisLimits, MpcProblem
 from .mpc_unconstrained import Plan
+from .stage_parameters import MpcParameters
 
 
-class HorizonAxis:
+class MpcAxis:
     """One axis of the stage: demand (m/s^2) in, position, velocity and acceleration out."""
 
     def __init__(
@@ -28,7 +28,7 @@ class HorizonAxis:
         recentre: float,
         bandwidth: float,
         limits: AxisLimits,
-        parameters: HorizonParameters,
+        parameters: MpcParameters,
         delay: int,
     ) -> None:
         """Onset, recentre and bandwidth as in StageParameters, for one axis; dt in s.
@@ -42,7 +42,7 @@ class HorizonAxis:
         bound = parameters.excess * demand_bound(onset, *limits[:3])
         self._imagined = HighPass(dt, onset, recentre, bandwidth, bound)
         self._useful = AdaptiveGain(dt, parameters.memory, parameters.first_share, parameters.doubt)
-        self.problem = HorizonProblem(
+        self.problem = MpcProblem(
             [ticks * dt for ticks in self._ticks], onset, parameters.fade, limits
         )
         self._to_next = delay % self._period

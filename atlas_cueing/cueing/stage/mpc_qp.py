@@ -28,11 +28,10 @@ from typing import TypeAlias
 
 import daqp
 import numpy as np
-from numpy.typing import NDArray
 
+from ...rotations import Array
 from .mpc_unconstrained import Plan, State, UnlimitedPlan
 
-Array: TypeAlias = NDArray[np.float64]
 # travel m, speed m/s, acceleration m/s^2, jerk m/s^3
 AxisLimits: TypeAlias = tuple[float, float, float, float]
 
@@ -48,7 +47,7 @@ _EQUATION = 5  # daqp's type of an equality
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(4)  # exact for the square of a cubic
 
 
-class HorizonProblem:
+class MpcProblem:
     """Finds the jerks of the best plan of one axis.
 
     Of the unknowns x (m,) the cost is x hessian x / 2 + x gradient (p, v, a, d), with `hessian` (m,

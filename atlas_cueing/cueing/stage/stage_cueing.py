@@ -7,18 +7,18 @@ of the stage, and each axis does with it what its planner can (`horizon`, `onset
 
 # mypyc: runs every tick
 
-from typing import TypeAlias
+from typing import TypeAlias, assert_never
 
 from ...rotation import ZERO, Quat, Vec3, add, cross, flip, rotate, scale, subtract
 from ...signals import STANDARD_GRAVITY, StageLimits
-from ..parameters import StageParameters
 from .high_pass import HighPass, demand_bound
-from .mpc import HorizonAxis
+from .mpc import MpcAxis
+from .stage_parameters import StageParameters
 
 _GRAVITY_W: Vec3 = (0.0, 0.0, -STANDARD_GRAVITY)
 
 
-StageAxis: TypeAlias = HorizonAxis | HighPass
+StageAxis: TypeAlias = MpcAxis | HighPass
 """One axis of the stage: `step` gives position (m), velocity and acceleration one tick on, for a
     demand in m/s^2."""
 
@@ -63,14 +63,13 @@ class StageCueing:
 def _axis(i: int, dt: float, parameters: StageParameters, limits: StageLimits) -> StageAxis:
     """The planner of axis i."""
     onset, recentre, bandwidth = parameters.onset[i], parameters.recentre[i], parameters.bandwidth
-    travel, speed, acceleration = (
-        min(limits.travel[i], parameters.travel[i]),
-        limits.speed[i],
-        limits.acceleration[i],
-    )
-    if parameters.horizon is None:
-        return HighPass(
-            dt, onset, recentre, bandwidth, demand_bound(onset, travel, speed, acceleration)
-        )
-    limit = travel, speed, acceleration, limits.jerk[i]
-    return HorizonAxis(dt, onset, recentre, bandwidth, limit, parameters.horizon, i)
+    travel = min(limits.travel[i], parameters.travel[i])
+    speed, acceleration = limits.speed[i], limits.acceleration[i]
+    match parameters.planner:
+        case "onset":
+            bound = demand_bound(onset, travel, speed, acceleration)
+            return HighPass(dt, onset, recentre, bandwidth, bound)
+        case "horizon":
+            limit = travel, speed, acceleration, limits.jerk[i]
+            return MpcAxis(dt, onset, recentre, bandwidth, limit, parameters.mpc, i)
+    assert_never(parameters.planner)

@@ -7,7 +7,7 @@ from math import pi, radians, sin
 import numpy as np
 
 from atlas_cueing.cueing import PreviewParameters
-from atlas_cueing.cueing.preview import preview
+from atlas_cueing.cueing.preview.motion_plan import plan_motion
 from atlas_cueing.rotation import ZERO, Quat, Vec3, exp, from_euler
 from atlas_cueing.signals import STANDARD_GRAVITY, Cue, StageLimits, VehicleState, felt
 
@@ -43,7 +43,7 @@ def planned(
     dt: float = DT,
 ) -> Planned:
     """Plan and play, tick by tick."""
-    plan = preview(states, parameters, limits, head, dt)
+    plan = plan_motion(states, parameters, limits, head, dt)
     cues = [plan.step(state) for state in states]
     q, w, p, v, a = (
         np.array([getattr(cue, name) for cue in cues])

@@ -16,6 +16,7 @@ from atlas_cueing.cueing import (
     StageParameters,
     build_cueing,
 )
+from atlas_cueing.cueing.preview.motion_plan import _product
 from atlas_cueing.errors import InputError
 from atlas_cueing.rotation import ZERO, Vec3, from_euler
 from atlas_cueing.signals import Cue, VehicleState, felt
@@ -196,3 +197,10 @@ def test_the_head_is_where_the_force_is_felt() -> None:
     assert np.max(np.abs(off.p)) > 0.02
     assert radians(0.1) < np.max(np.linalg.norm(off.rate_error, axis=1)) <= QUICK.rate
     assert DEFAULT.rate == QUICK.rate
+
+
+def test_products_are_compositions() -> None:
+    p, q = (Rotation.random(20, rng=np.random.default_rng(seed)) for seed in (1, 2))
+    rows = _product(p.as_quat(scalar_first=True), q.as_quat(scalar_first=True))
+    found = Rotation.from_quat(rows, scalar_first=True)
+    assert np.max((found.inv() * (p * q)).magnitude()) < 1e-14

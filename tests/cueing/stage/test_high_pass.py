@@ -19,7 +19,7 @@ def one_axis(choice: tuple[float, float, float]) -> StageParameters:
     """The same parameters on every axis."""
     onset, recentre, bandwidth = choice
     return StageParameters(
-        onset=(onset,) * 3, recentre=(recentre,) * 3, bandwidth=bandwidth, horizon=None
+        onset=(onset,) * 3, recentre=(recentre,) * 3, bandwidth=bandwidth, planner="onset"
     )
 
 
@@ -108,7 +108,7 @@ def test_the_travel_holds_whatever_demand_was_there_at_the_start(
 
 def test_onset_and_return_are_the_axis_s_own() -> None:
     """Three axes, three filters: each is that of its own numbers, with the others' changed."""
-    whole = StageParameters(onset=(1.0, 2.0, 3.0), recentre=(0.3, 0.1, 0.0), horizon=None)
+    whole = StageParameters(onset=(1.0, 2.0, 3.0), recentre=(0.3, 0.1, 0.0), planner="onset")
     states = []
     for parameters in (
         whole,

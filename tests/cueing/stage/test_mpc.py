@@ -9,26 +9,26 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from atlas_cueing.cueing import HorizonParameters
+from atlas_cueing.cueing import MpcParameters
 from atlas_cueing.cueing.stage.high_pass import HighPass
-from atlas_cueing.cueing.stage.mpc import HorizonAxis, block_ticks, planning_ticks
+from atlas_cueing.cueing.stage.mpc import MpcAxis, block_ticks, planning_ticks
 from atlas_cueing.cueing.stage.mpc_unconstrained import Plan
 
 DT = 1.0 / 120.0
 LIMITS = (1.0, 1.5, 6.0, 60.0)
 SMALL = (0.05, 0.2, 2.0, 40.0)
-DEFAULT = HorizonParameters()
+DEFAULT = MpcParameters()
 EAGER = replace(DEFAULT, first_share=1.0, doubt=1e12, excess=100.0)
 """Moves for the whole demand, whatever comes of it, and well into the limits."""
 
 
 def axis(
     dt: float = DT, limits: tuple[float, float, float, float] = LIMITS, **changes: Any
-) -> HorizonAxis:
-    return HorizonAxis(dt, 0.7, 0.2, 5.0, limits, replace(EAGER, **changes), 0)
+) -> MpcAxis:
+    return MpcAxis(dt, 0.7, 0.2, 5.0, limits, replace(EAGER, **changes), 0)
 
 
-def fly(moved: HorizonAxis, demands: Any) -> np.ndarray:
+def fly(moved: MpcAxis, demands: Any) -> np.ndarray:
     """p, v, a before and after each tick, a row each; from rest in the centre."""
     return np.array([(0.0, 0.0, 0.0), *(moved.step(float(demand)) for demand in demands)])
 
@@ -139,9 +139,9 @@ def test_far_from_the_limits_it_is_the_onset_filter() -> None:
     assert np.all(error < 0.06), error
 
 
-def ratio(demand: np.ndarray, parameters: HorizonParameters = DEFAULT) -> float:
+def ratio(demand: np.ndarray, parameters: MpcParameters = DEFAULT) -> float:
     """Rms error with the stage over that without."""
-    moved = HorizonAxis(DT, 0.7, 0.2, 5.0, LIMITS, parameters, 0)
+    moved = MpcAxis(DT, 0.7, 0.2, 5.0, LIMITS, parameters, 0)
     left = demand - fly(moved, demand)[1:, 2]
     return float(np.sqrt(np.mean(left**2) / np.mean(demand**2)))
 
@@ -221,7 +221,7 @@ def test_the_first_block_of_the_defaults_is_one_period() -> None:
 def test_a_late_start_shifts_the_plans(monkeypatch: pytest.MonkeyPatch) -> None:
     begun = []
     for delay in (0, 1, 2, 5):
-        moved, ticks = HorizonAxis(1e-3, 0.7, 0.2, 5.0, LIMITS, EAGER, delay), []
+        moved, ticks = MpcAxis(1e-3, 0.7, 0.2, 5.0, LIMITS, EAGER, delay), []
         for tick in range(100):
             monkeypatch.setattr(
                 moved, "_plan", lambda _, tick=tick, ticks=ticks: ticks.append(tick)

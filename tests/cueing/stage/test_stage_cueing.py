@@ -8,7 +8,7 @@ import pytest
 
 from atlas_cueing.cueing import StageParameters
 from atlas_cueing.cueing.stage.high_pass import HighPass
-from atlas_cueing.cueing.stage.mpc import HorizonAxis
+from atlas_cueing.cueing.stage.mpc import MpcAxis
 from atlas_cueing.cueing.stage.stage_cueing import StageCueing
 from atlas_cueing.rotation import IDENTITY, ZERO, Vec3, conjugate, exp, flip, rotate, scale
 from atlas_cueing.signals import STANDARD_GRAVITY, StageLimits
@@ -16,7 +16,7 @@ from atlas_cueing.signals import STANDARD_GRAVITY, StageLimits
 LIMITS = StageLimits((1.0, 1.0, 0.75), (1.5, 1.5, 1.2), (6.0, 6.0, 5.0), (60.0, 60.0, 50.0))
 HUGE = StageLimits((1e6,) * 3, (1e6,) * 3, (1e6,) * 3, (1e9,) * 3)
 DTS = [1.0 / 1000.0, 1.0 / 120.0, 1.0 / 20.0]
-ONSET = StageParameters(onset=(2.0, 2.0, 2.0), horizon=None)
+ONSET = StageParameters(onset=(2.0, 2.0, 2.0), planner="onset")
 PLANNERS = pytest.mark.parametrize("planned", [ONSET, StageParameters()], ids=["onset", "horizon"])
 
 
@@ -117,7 +117,7 @@ def test_the_head_s_own_acceleration_is_subtracted(planned: StageParameters, hea
 
 
 def test_each_axis_has_its_planner_and_its_limits() -> None:
-    for planned, kind in ((ONSET, HighPass), (StageParameters(), HorizonAxis)):
+    for planned, kind in ((ONSET, HighPass), (StageParameters(), MpcAxis)):
         assert all(
             isinstance(axis, kind) for axis in StageCueing(0.01, planned, LIMITS, ZERO)._axes
         )
