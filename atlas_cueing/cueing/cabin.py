@@ -147,6 +147,6 @@ def upright(q_NB: Quat) -> Quat:
 
 
 def cabin_rate(gain: Vec3, vehicle: VehicleState) -> Vec3:
-    """Give the vehicle's body rates as a rate of the cabin (rad/s, S), with a gain per cabin axis."""
+    """Give the vehicle's body rates as the cabin's (rad/s, S), with a gain for each axis of S."""
     x, y, z = flip(vehicle.w_NB_B)
     return (gain[0] * x, gain[1] * y, gain[2] * z)

@@ -83,7 +83,7 @@ class Parameter:
         dataclass within.
     allowed: the range of a number (of each of three, where the default is a vector), or the words.
     description: one line on what it does.
-    source: where the default comes from; "assumed" or "found" (by trials) where nobody says so.
+    source: where the default comes from; "assumed" or "found" (by trials) where there is no source.
     """
 
     key: str

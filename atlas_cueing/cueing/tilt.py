@@ -52,7 +52,7 @@ def aligned(vehicle: VehicleState, hold: float) -> Quat:
 
 
 def misalignment(q_WS: Quat, f_S: Vec3, hold: float) -> Vec3:
-    """Give the turn of the cabin (rotation vector, rad, S) that brings W's up to the direction of f_S.
+    """Give the turn of the cabin (rotation vector, rad, S) that brings W's up to the force f_S.
 
     There is no direction near zero force: the turn fades out where |f_S| falls from twice `hold` to
     `hold`, m/s^2.
@@ -96,7 +96,10 @@ class ForceDirection:
     """
 
     def __init__(self, dt: float, bandwidth: float, hold: float, f_S: Vec3) -> None:
-        """Begin with the lasting force f_S, m/s^2; natural frequency `bandwidth` in rad/s; dt in s."""
+        """Begin with the lasting force f_S (m/s^2).
+
+        bandwidth: natural frequency of the filter, rad/s; hold: as in `fade_in`; dt in s.
+        """
         self._force, self._hold = DampedVector(bandwidth, dt, f_S), hold
 
     def step(self, f_S: Vec3) -> Vec3:

@@ -12,7 +12,7 @@ _FLU_TO_FRD = np.array([1.0, -1.0, -1.0])
 def felt(
     q_WS: ArrayLike, w_WS_W: ArrayLike, alpha_WS_W: ArrayLike, a_WS_W: ArrayLike, head_S: ArrayLike
 ) -> tuple[Array, Array]:
-    """Specific force (m/s^2) and angular rate (rad/s) at the rider's head, both (n, 3) in cabin FRD axes.
+    """Specific force (m/s^2) and angular rate (rad/s) at the rider's head, (n, 3), FRD axes.
 
     f = R_SW (a + alpha x r + w x (w x r) - g_W) with r = R_WS head_S and g_W = (0, 0, -9.80665).
 
@@ -30,7 +30,7 @@ def felt(
 
 
 def direction_error(f: ArrayLike, g: ArrayLike) -> Array:
-    """Angle (rad, (n,)) between two specific forces (n, 3); 0 where one of them is zero."""
+    """Angles (n,), rad, between two specific forces (n, 3); 0 where one of them is zero."""
     f, g = np.asarray(f, dtype=np.float64), np.asarray(g, dtype=np.float64)
     error: Array = np.arctan2(np.linalg.norm(cross(f, g), axis=1), np.sum(f * g, axis=1))
     return error

@@ -18,7 +18,7 @@ class Wheels:
         self.wheels_from_sphere: Mat3 = geometry.wheels_from_sphere
 
     def speeds(self, motion: Motion) -> WheelSpeeds:
-        """Speed (Eq. 22) and acceleration (Eq. 19, inverted) of each wheel.
+        """Give speed (Eq. 22) and acceleration (Eq. 19, inverted) of each wheel.
 
         J is constant, so the same map serves both.
         """

@@ -1,7 +1,7 @@
-"""The flight seen from A: axes that do not turn, and that lie along the cabin's own when the flight begins.
+"""The flight seen from A: axes that do not turn, the cabin's own as the flight begins.
 
 If the cabin turned with the vehicle's body rates and nothing else, it would stand in A as `q_AS`
-says. Whatever a method adds is a turn of A against W, at the rate it adds; so in A the vehicle's
+says. What a method adds is a turn of A against W, at the rate it adds; so in A the vehicle's
 turning drops out of the problem.
 """
 
@@ -22,7 +22,11 @@ _ABSURD = 1e6
 
 @dataclass(frozen=True, slots=True)
 class Inertial:
-    """Vehicle at each tick, in A: orientation q_AS (n, 4), body rates w_A (n, 3) rad/s, specific force f_A (n, 3) m/s^2."""
+    """The vehicle at each tick, in A.
+
+    time (n,), s; orientation q_AS (n, 4); body rates w_A (n, 3), rad/s; specific force f_A (n, 3),
+    m/s^2.
+    """
 
     time: Array
     q_AS: Array
@@ -53,7 +57,10 @@ def inertial(states: Sequence[VehicleState], dt: float) -> Inertial:
 
 
 def turned(q: Quat, rates: Sequence[Vec3], dt: float) -> list[Quat]:
-    """Orientations at each tick from the first one, q, and the rates (rad/s) in axes that turn along."""
+    """Integrate orientations, one for each tick.
+
+    q: the first one; rates: at each tick, rad/s, in axes that turn along; dt in s.
+    """
     orientations = [q]
     for before, now in pairwise(rates):
         turn = scale(0.5 * dt, add(before, now))

@@ -31,7 +31,7 @@ def plan_motion(
 ) -> PlannedCues:
     """Plan the platform's motion for all states of a flight, dt s apart.
 
-    Head_S: the rider's head from the centre, m, S.
+    head_S: the rider's head from the sphere's centre, m, in S.
 
     First the rotation for the whole force, at its global best, and the stage for what it leaves;
     then both at once from there, `rounds` times. The cheapest counts. Raises InputError when there
@@ -60,9 +60,10 @@ def plan_motion(
 
 @dataclass(frozen=True, slots=True)
 class _Course:
-    """The rotation at each tick: W's up in A, A in W, the cabin's rate.
+    """The rotation at each of n ticks.
 
-    The head's acceleration by turning, and missing.
+    up: W's up in A; q_WA (n, 4): A in W; w_W (n, 3): the cabin's rate, rad/s; turning_W (n, 3): the
+    acceleration of the head by turning, m/s^2; lacking_W (n, 3): what it still lacks.
     """
 
     up: Up
@@ -82,7 +83,10 @@ class _Plan:
 
 @dataclass(frozen=True, slots=True)
 class _Problem:
-    """What all rounds have in common; `start` is the cabin's attitude before its turn to the first force."""
+    """What all rounds have in common.
+
+    start: the cabin's attitude before its turn to the first force.
+    """
 
     spline: Spline
     flight: Inertial
@@ -92,7 +96,7 @@ class _Problem:
     dt: float
 
     def course(self, points: Array) -> _Course:
-        """The rotation that control points of W's up make."""
+        """Give the rotation that control points (points, 3) of W's up make."""
         up = sampled(self.spline, points)
         q_WA = self._orientations(up)
         w_W = rotate(q_WA, self.flight.w_A + up.rate)
@@ -102,7 +106,7 @@ class _Problem:
         )
 
     def plan(self, course: _Course, stage: Array) -> _Plan:
-        """The rotation with the stage of these control points."""
+        """Join the rotation and the stage of these control points (points, 3); gives the plan."""
         spline = self.spline
         p_W, v_W, a_W = (
             np.asarray(matrix @ stage) for matrix in (spline.value, spline.slope, spline.curvature)
@@ -116,7 +120,10 @@ class _Problem:
         return _Plan(PlannedCues(self.flight.time, q_WS, course.w_W, p_W, v_W, a_W), float(cost))
 
     def _orientations(self, up: Up) -> Array:
-        """q_WA (n, 4): the first attitude turned the shortest way so that W's up is where it should be, and on from there."""
+        """Give q_WA (n, 4): the first attitude, turned to W's up, and on from there.
+
+        It is turned the shortest way.
+        """
         x, y, z = up.direction[0].tolist()
         first = multiply(shortest_arc(rotation.rotate(self.start, (x, y, z)), _UP), self.start)
         return np.array(turned(first, [(a, b, c) for a, b, c in up.rate.tolist()], self.dt))

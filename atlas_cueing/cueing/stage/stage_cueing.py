@@ -1,8 +1,9 @@
-"""What the stage should do: part of the acceleration that the rider's head lacks, inside the travel.
+"""What the stage should do: part of the acceleration that the rider's head lacks.
 
 A rider feels f = R_SW (a_head - g_W), so the head should have a_head = R_WS f_vehicle + g_W. For a
 head off the centre the sphere's own turning gives alpha x r + w x (w x r) of it; the rest is asked
-of the stage, and each axis does with it what its planner can (`horizon`, `onset`).
+of the stage, and each axis does with it what its planner can inside the travel (`mpc` or
+`high_pass`).
 """
 
 # mypyc: runs every tick
@@ -20,16 +21,19 @@ _GRAVITY_W: Vec3 = (0.0, 0.0, -STANDARD_GRAVITY)
 
 StageAxis: TypeAlias = MpcAxis | HighPass
 """One axis of the stage: `step` gives position (m), velocity and acceleration one tick on, for a
-    demand in m/s^2."""
+demand in m/s^2."""
 
 
 class StageCueing:
-    """Stage position, velocity and acceleration (W) from the cue's orientation and the vehicle's specific force."""
+    """Motion of the stage for the cue's orientation and the vehicle's specific force."""
 
     def __init__(
         self, dt: float, parameters: StageParameters, limits: StageLimits, head_S: Vec3
     ) -> None:
-        """head_S: the rider's head from the sphere centre, m, frame S; dt in s."""
+        """Start at rest in the centre.
+
+        head_S: the rider's head from the sphere's centre, m, in S; dt in s.
+        """
         self._dt, self._gain = dt, parameters.force_gain
         self._head, self._centred = head_S, head_S == ZERO
         self._axes: tuple[StageAxis, StageAxis, StageAxis] = (
@@ -40,7 +44,11 @@ class StageCueing:
         self._w_before: Vec3 | None = None
 
     def step(self, q_WS: Quat, w_WS_W: Vec3, f_B: Vec3) -> tuple[Vec3, Vec3, Vec3]:
-        """Position (m), velocity (m/s) and acceleration (m/s^2) in W."""
+        """Give position (m), velocity (m/s) and acceleration (m/s^2) of the stage in W.
+
+        q_WS and w_WS_W (rad/s): the rotation of the cue; f_B: the vehicle's specific force (m/s^2,
+        FRD).
+        """
         wanted = add(rotate(q_WS, flip(f_B)), _GRAVITY_W)
         lacking = subtract(wanted, self._turning(q_WS, w_WS_W))
         gain, axes = self._gain, self._axes
@@ -61,7 +69,7 @@ class StageCueing:
 
 
 def _axis(i: int, dt: float, parameters: StageParameters, limits: StageLimits) -> StageAxis:
-    """The planner of axis i."""
+    """Make the planner of axis i."""
     onset, recentre, bandwidth = parameters.onset[i], parameters.recentre[i], parameters.bandwidth
     travel = min(limits.travel[i], parameters.travel[i])
     speed, acceleration = limits.speed[i], limits.acceleration[i]
