@@ -99,7 +99,7 @@ def test_any_finite_force_gives_a_finite_cue(method: RotationParameters, huge: f
 
 
 def turned_away(method: RotationParameters, dt: float, push: float = 1.0) -> float:
-    """Largest angle in ten seconds between the orientation and the integral of the rate, by the trapezoid in W."""
+    """Largest angle in ten seconds from the integral of the rate, by the trapezoid in W."""
     cueing = build_cueing(method, StageParameters(), LIMITS, ZERO, dt)
     cues = [cueing.step(vehicle) for vehicle in manoeuvring(dt, 10.0, push)]
     q, worst = Rotation.from_quat(np.roll(cues[0].q_WS, -1)), 0.0
@@ -127,7 +127,10 @@ def test_the_orientation_is_the_integral_of_the_rate_to_second_order(
 
 
 def test_a_tilt_whose_rate_jumps_is_the_integral_of_the_rate_to_first_order() -> None:
-    """`classical` limits the rate of its tilt and not the acceleration: each jump of 3 deg/s is off by half a tick of it."""
+    """`classical` limits its tilt's rate, not the acceleration.
+
+    Each jump of 3 deg/s is off by half a tick of it.
+    """
     assert (
         turned_away(ClassicalParameters(rotation_gain=ZERO), 1.0 / 100.0, 3.0)
         < 0.5 * 0.01 * 2.0 * radians(3.0) * 2.0
@@ -196,7 +199,7 @@ def test_they_turn_with_a_turn_as_they_should() -> None:
 
 
 def test_the_stage_knows_where_the_head_is() -> None:
-    """Spinning up in place: a head off the axis is accelerated, which the vehicle's force does not ask for."""
+    """Spinning up in place accelerates a head off the axis, unlike the vehicle."""
     moved = []
     for head in (ZERO, (0.5, 0.0, 0.0)):
         cueing = build_cueing(AttitudeParameters(), StageParameters(), LIMITS, head, 0.01)

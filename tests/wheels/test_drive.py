@@ -1,4 +1,7 @@
-"""Wheel speeds of a motion: back through the Jacobian, and by finite differences of an orientation turned by the wheels alone."""
+"""Wheel speeds of a motion: back through the Jacobian, and by finite differences.
+
+The latter are of an orientation turned by the wheels alone.
+"""
 
 from math import cos, sin
 
@@ -44,7 +47,10 @@ def test_speeds_bring_the_motion_back_through_the_jacobian(
 
 
 def test_finite_differences_of_the_orientation_turned_by_the_wheels() -> None:
-    """Wheel speeds -> J -> Eq. 20 integrated -> central difference of q gives the rate asked for, in the BASE frame."""
+    """Wheel speeds -> J -> Eq. 20 integrated -> central difference of q gives the rate.
+
+    It is in the BASE frame.
+    """
 
     def rate(t: float) -> Vec3:
         return (1.1 * cos(2.0 * t), 0.8 * sin(1.3 * t) + 0.2, -0.9 * cos(0.7 * t))

@@ -23,7 +23,7 @@ G = STANDARD_GRAVITY
 
 @dataclass(frozen=True)
 class Planned:
-    """A plan in columns: the cues, and what a rider who gets them feels less what the pilot feels (FRD)."""
+    """A plan in columns, and what its rider feels less what the pilot feels (FRD)."""
 
     cues: list[Cue]
     q: np.ndarray
@@ -79,7 +79,7 @@ def flying(
 def tilting(
     seconds: float = 20.0, angle: float = radians(20.0), start: Quat = EAST_ISH
 ) -> list[VehicleState]:
-    """The force swings over to one side, as fast as gravity could never be turned at 3 deg/s, and stays there."""
+    """The force swings to one side, faster than gravity turns at 3 deg/s, and stays."""
 
     def force(t: float) -> Vec3:
         over = angle * min(max((t - 8.0) / 1.0, 0.0), 1.0)

@@ -22,7 +22,7 @@ def test_a_constant_rate_turns_about_its_axis() -> None:
 
 
 def test_turning_drops_out_of_the_vehicle_s_own_attitude() -> None:
-    """A differs from N by a constant turn, so the angle between any two orientations is the same in both."""
+    """A differs from N by a constant turn: angles between orientations are the same."""
     states = list(manoeuvring(0.005, 8.0))
     seen = inertial(states, 0.005)
     turned = Rotation.from_quat(np.roll(seen.q_AS, -1, axis=1))

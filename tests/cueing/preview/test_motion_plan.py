@@ -1,4 +1,4 @@
-"""The whole plan: inside its limits, consistent with itself, and better than what does not know the future."""
+"""The whole plan: inside its limits, consistent, and better than causal methods."""
 
 from dataclasses import replace
 from math import radians
@@ -114,7 +114,10 @@ def test_it_keeps_its_limits_and_beats_those_who_do_not_know_the_future(
 
 
 def test_as_fast_as_method_force_it_follows_the_force() -> None:
-    """Rolls with the force along the seat: the cabin stands still, where 3 deg/s would turn it over."""
+    """Rolls with the force along the seat: the cabin stands still.
+
+    A rate of 3 deg/s would turn it over.
+    """
     slow, fast = planned(rolling(), replace(QUICK)), planned(rolling(), FAST)
     check(fast)
     assert cost(fast.force_error, fast.rate_error) < cost(slow.force_error, slow.rate_error)
@@ -186,7 +189,10 @@ def test_forces_that_nothing_has_get_no_plan(bad: float) -> None:
 
 
 def test_the_head_is_where_the_force_is_felt() -> None:
-    """Spinning up about the vertical: a head off the axis is accelerated, and the stage takes it back."""
+    """Spinning up about the vertical accelerates a head off the axis.
+
+    The stage takes it back.
+    """
 
     def spin(t: float) -> Vec3:
         return (0.0, 0.0, 0.3 * t)

@@ -1,4 +1,4 @@
-"""One axis of the stage by plans: inside its limits for ever, useful on onsets, still where the demand lasts."""
+"""One axis of the stage by plans: inside its limits, useful on onsets, else still."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -111,7 +111,10 @@ def test_without_new_plans_it_goes_on_to_a_standstill_inside_the_limits(
 def test_one_failure_now_and_then_goes_unnoticed_but_for_the_plan_s_age(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Every third plan missing: a plan then begins in the middle of the one before, still inside all limits."""
+    """Without every third plan the stage stays inside all limits.
+
+    A plan then begins in the middle of the one before.
+    """
     moved, calls, found = axis(), 0, 0
     solve = moved.problem.solve
 
@@ -129,7 +132,7 @@ def test_one_failure_now_and_then_goes_unnoticed_but_for_the_plan_s_age(
 
 
 def test_far_from_the_limits_it_is_the_onset_filter() -> None:
-    """A second derivation: what the completed square promises, but for jerk limit and the blocks' length."""
+    """A second derivation: the completed square, but for jerk limit and blocks."""
     t = np.arange(0.0, 20.0, DT)
     demand = 0.1 * np.sin(0.8 * t) + 0.1 * np.sin(2.5 * t + 1.0) * (t > 5.0)
     planned = fly(axis(), demand)[1:]
@@ -160,7 +163,7 @@ def test_onsets_are_felt() -> None:
 
 @pytest.mark.parametrize("period", [40.0, 80.0])
 def test_it_keeps_still_where_the_demand_lasts(period: float) -> None:
-    """Demands of 1 m/s^2 that stay for 20 s and more: a stage that moved for them would only add to the error."""
+    """For demands of 1 m/s^2 that stay for 20 s any motion adds to the error."""
     t = np.arange(0.0, 240.0, DT)
     lasting = np.where(np.sin(2.0 * np.pi * t / period) >= 0.0, 1.0, -1.0) * (t > 1.0)
     slow = np.sin(2.0 * np.pi * t / period)

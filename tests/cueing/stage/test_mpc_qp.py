@@ -49,7 +49,10 @@ def cost(state: tuple[float, ...], jerks: np.ndarray) -> float:
 
 
 def controls(state: tuple[float, ...], jerks: np.ndarray) -> np.ndarray:
-    """Use of each limit: accelerations at the nodes, control points of v and p by interpolation, jerks; begin left out."""
+    """Use of each limit by accelerations, jerks, and control points of v and p.
+
+    The begin is left out.
+    """
     used = list(jerks / LIMITS[3])
     for k, (_, (p, v, a)) in enumerate(simulate(state, jerks)):
         speeds, places = bernstein(v, 2), bernstein(p, 3)

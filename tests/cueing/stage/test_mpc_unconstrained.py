@@ -1,4 +1,4 @@
-"""The closed form against the solver that it saves, and its word on limits against the plan itself."""
+"""The closed form against the solver, and its check of limits against the plan."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,7 @@
-"""The stage: onsets inside the travel for any demand, a return nobody feels, and the rider's head taken into account."""
+"""The stage: onsets inside the travel for any demand, a return below the threshold.
+
+The rider's head is taken into account.
+"""
 
 from dataclasses import replace
 from math import sin
@@ -22,7 +25,10 @@ PLANNERS = pytest.mark.parametrize("planned", [ONSET, StageParameters()], ids=["
 
 @PLANNERS
 def test_no_more_than_the_parameters_travel_is_used_on_each_axis(planned: StageParameters) -> None:
-    """And no less: the cap is used up to its share, axis by axis, and the platform's own travel where that is smaller."""
+    """The travel is used up to its share, axis by axis.
+
+    The platform's own counts where it is smaller.
+    """
     parameters = replace(planned, travel=(0.2, 9.0, 0.4))
     cueing, most = StageCueing(0.01, parameters, LIMITS, ZERO), np.zeros(3)
     cueing.step(IDENTITY, ZERO, (0.0, 0.0, -STANDARD_GRAVITY))
@@ -95,7 +101,10 @@ def test_the_demand_is_in_base_axes_with_its_gain() -> None:
 @PLANNERS
 @pytest.mark.parametrize("head", [(0.4, -0.2, 0.7), (0.0, 0.0, 1.0)])
 def test_the_head_s_own_acceleration_is_subtracted(planned: StageParameters, head: Vec3) -> None:
-    """The force asked for is just what the turning makes, from second differences of the head's path: the stage stays."""
+    """The stage stays when the force is what the turning makes.
+
+    That is from second differences of the head's path.
+    """
     dt, n = 1e-3, 3000
     t = dt * np.arange(n)
     angle, rate = 0.8 * t + 0.2 * np.sin(3.0 * t), 0.8 + 0.6 * np.cos(3.0 * t)
