@@ -1,21 +1,23 @@
 """Everything the project raises on purpose.
 
     AtlasError
-    |-- InputError              a file, option or value is wrong; nothing was written (exit status 2)
+    |-- InputError              a file, option or value is wrong; nothing was written (status 2)
     |   |-- ScenarioError       every mistake of a scenario or platform file at once
     |   |-- MissingExtraError   a package of an extra is not installed
-    |   |-- StartError          a flight that cannot begin as it is told: no such model, no trim, in the ground
+    |   |-- StartError          a flight cannot begin: no such model, no trim, in the ground
     |   |-- SlipConditionError  a geometry whose wheels cannot turn the sphere about every axis
     |   `-- OutputError         the log cannot be written where it was asked for
-    |-- PrintError              standard output takes nothing more; what was recorded is kept (exit status 1)
-    |-- VehicleError            the vehicle model failed in mid-run; what came before is good (exit status 1)
-    |-- PlanningError           the trajectory generator refused a state; the certified stop takes over
-    |-- LogError                a log is damaged or not one of ours (exit status 1)
-    |-- PacketError             a simulator's packet is not one, or cannot be believed; it is dropped (in `vehicles.flightgear`)
-    `-- SetPointError           a set-point packet is damaged, forged or not one of ours; it is not followed
+    |-- PrintError              standard output takes no more; the recording is kept (status 1)
+    |-- VehicleError            the vehicle failed in mid-run; earlier ticks are good (status 1)
+    |-- PlanningError           the trajectory generator refused a state; the certified stop follows
+    |-- LogError                a log is damaged or not one of ours (status 1)
+    |-- PacketError             a simulator's packet is damaged or not believable; it is dropped
+    |                           (in `vehicles.flightgear`)
+    `-- SetPointError           a set-point packet is damaged, forged or not one of ours; it is not
+                                followed
 
-Messages carry evidence: what, which value, which bounds (written `lower <= value <= upper`), when
-    and where.
+Statuses are the exit statuses of the program. Messages carry evidence: what, which value, which
+bounds (written `lower <= value <= upper`), when and where.
 """
 
 import sys
@@ -36,7 +38,7 @@ class AtlasError(Exception):
 
     @property
     def lines(self) -> tuple[str, ...]:
-        """The lines of the message; a line break inside one of them comes from a name."""
+        """Lines of the message; a line break inside one of them comes from a name."""
         return tuple(map(str, self.args))
 
 
@@ -79,11 +81,11 @@ class MissingExtraError(InputError):
 
 
 class StartError(InputError):
-    """A flight cannot begin as it is told; the text starts with the key below `[vehicle]`."""
+    """A flight cannot begin as asked; the text starts with the key below `[vehicle]`."""
 
 
 class SlipConditionError(InputError):
-    """The induced rows are not independent, so the kinematic slip condition fails (paper, section 3.1)."""
+    """The kinematic slip condition fails: induced rows are dependent (paper, section 3.1)."""
 
     def __init__(
         self, name: str, determinant: float, condition_number: float, bound: float

@@ -1,4 +1,4 @@
-"""The architecture in four lines."""
+"""The chain from vehicle to wheels: cueing, smoothing and wheel drive."""
 
 # mypyc: runs every tick
 
@@ -22,19 +22,19 @@ class Pipeline:
     wheels: WheelDrive
 
     def step(self, vehicle: VehicleState) -> Tick:
-        """What the platform asks, is allowed and does for one vehicle state.
+        """Give what is asked of the platform, what it may do and what its wheels do.
 
-        States come in order, one step apart.
+        vehicle: the next state; states come in order, one step apart.
         """
         cue = self.cueing.step(vehicle)
         motion = self.smoothing.step(cue)
         return Tick(vehicle, cue, motion, self.wheels.speeds(motion))
 
     def block(self, vehicles: Sequence[VehicleState]) -> list[Tick]:
-        """The ticks that `step` would give for these states, one after the other.
+        """Give the ticks that `step` would give for these states, one after the other.
 
-        Stage by stage: nothing flows back, and each stage's code stays in the processor's caches,
-            which saves a third.
+        It goes stage by stage: nothing flows back, and each stage's code stays in the processor's
+        caches, which saves a third.
         """
         cues = [self.cueing.step(vehicle) for vehicle in vehicles]
         motions = [self.smoothing.step(cue) for cue in cues]

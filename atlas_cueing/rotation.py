@@ -146,7 +146,7 @@ def log(q: Quat) -> Vec3:
 
 
 def log_unwound(q: Quat) -> Vec3:
-    """Rotation vector (rad) of a unit quaternion as its sign tells.
+    """Rotation vector (rad) of a unit quaternion, by the way that its sign says.
 
     By the longer way, |log q| > pi, where w < 0.
     """
@@ -167,7 +167,7 @@ def angle_between(a: Vec3, b: Vec3) -> float:
 
 
 def integrate_base(q_AB: Quat, turn_A: Vec3, w0_A: Vec3, w1_A: Vec3, dt: float) -> Quat:
-    """Orientation after one step of q' = 1/2 w_A o q (paper, Eq. 20), with the rate given in the BASE frame A.
+    """Orientation after one step of q' = 1/2 w_A o q (paper, Eq. 20): rate in the BASE frame A.
 
     `turn_A` is the time integral of the rate over the step and `w0_A`, `w1_A` are its ends.
     Fourth-order Magnus expansion (Iserles et al., Acta Numerica 9, 2000, section 4): phi = integral
@@ -177,9 +177,9 @@ def integrate_base(q_AB: Quat, turn_A: Vec3, w0_A: Vec3, w1_A: Vec3, dt: float) 
 
 
 def integrate_body(q_AB: Quat, turn_B: Vec3, w0_B: Vec3, w1_B: Vec3, dt: float) -> Quat:
-    """As `integrate_base` for q' = 1/2 q o w_B, with the rate given in the BODY frame B.
+    """Orientation after one step of q' = 1/2 q o w_B: rate in the BODY frame B.
 
-    The commutator changes sign.
+    It is `integrate_base` with the commutator's sign changed.
     """
     return multiply(q_AB, exp(_magnus(turn_B, w0_B, w1_B, dt * dt / 12.0)))
 
@@ -228,7 +228,10 @@ def flip(v: Vec3) -> Vec3:
 
 
 def flip_rotation(q: Quat) -> Quat:
-    """Quaternion from (down, FRD) axes to (up, FLU) axes and back: conjugation with half a turn about x."""
+    """Quaternion from (down, FRD) axes to (up, FLU) axes, and back.
+
+    It is the conjugation with half a turn about x.
+    """
     return (q[0], q[1], -q[2], -q[3])
 
 

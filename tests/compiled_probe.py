@@ -16,6 +16,7 @@ from math import inf, nan
 from pathlib import Path
 
 from atlas_cueing import rotation
+from atlas_cueing.cueing import CAUSAL_METHODS
 from atlas_cueing.errors import PlanningError
 from atlas_cueing.live.control.guard import Command, Guard
 from atlas_cueing.run import run_scenario
@@ -40,7 +41,7 @@ initial = { altitude_m = 3000.0, airspeed_m_s = 200.0 }
 input = [{ time_s = 1.0, property = "fcs/aileron-cmd-norm", value = 0.5, ramp_s = 0.2 }]
 """
 SCRIPT = '[vehicle]\nscript = "c172_elevator_doublet"'
-FLIGHTS = [("f16", 4.0, AIRCRAFT, method) for method in ("attitude", "blend", "force", "classical")]
+FLIGHTS = [("f16", 4.0, AIRCRAFT, method) for method in CAUSAL_METHODS]
 FLIGHTS += [("doublet", 25.0, SCRIPT, "blend")]
 AWKWARD = (nan, inf, -inf, 1e300, -1e200, 1e-300, 0.0, -0.0, 1e6)
 TICKS = 20_000

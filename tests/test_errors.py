@@ -21,7 +21,7 @@ def sources() -> list[str]:
 
 
 def test_the_command_is_that_of_the_interpreter_that_runs() -> None:
-    """As typed into a shell: it finds the extra's packages here already, without looking elsewhere."""
+    """As typed into a shell, it finds the extra's packages here already."""
     told = str(MissingExtraError("a 3D view", "viser", "live"))
     assert told == f"a 3D view needs viser; install it with: {PIP} install 'atlas_cueing[live]'"
     command = shlex.split(told.partition("with: ")[2])
@@ -29,7 +29,7 @@ def test_the_command_is_that_of_the_interpreter_that_runs() -> None:
 
 
 def test_pip_takes_the_command() -> None:
-    """An editable install is what is asked for, so that pip looks for nothing else than the extra's packages."""
+    """An editable install, so that pip looks for the extra's packages alone."""
     command = [
         sys.executable,
         "-m",

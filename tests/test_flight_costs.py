@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 
-from atlas_cueing.cueing.stage.mpc_qp import HorizonProblem
+from atlas_cueing.cueing.stage.mpc_qp import MpcProblem
 from atlas_cueing.cueing.stage.mpc_unconstrained import Plan
 from atlas_cueing.recording import McapRecorder
 from atlas_cueing.run import build_pipeline
@@ -129,14 +129,14 @@ def test_a_tick_costs_the_same_however_long_the_flight(tmp_path: Path) -> None:
 @interpreted
 def test_plans_of_a_second(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     of, solved = scenario(tmp_path, 4.0), 0
-    states, solve = flight(of), HorizonProblem.solve
+    states, solve = flight(of), MpcProblem.solve
 
     def counted(*arguments: Any) -> Plan | None:
         nonlocal solved
         solved += 1
         return solve(*arguments)
 
-    monkeypatch.setattr(HorizonProblem, "solve", counted)
+    monkeypatch.setattr(MpcProblem, "solve", counted)
     pipeline = build_pipeline(of, 1.0 / RATE_HZ)
     for state in states:
         pipeline.step(state)

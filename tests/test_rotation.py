@@ -1,4 +1,7 @@
-"""Rotation arithmetic against scipy (scalar last there), against the group's axioms and against a fine integration."""
+"""Rotation arithmetic against scipy, the group's axioms and a fine integration.
+
+scipy has the scalar last.
+"""
 
 from math import cos, inf, isnan, nan, pi, sin, sqrt
 
@@ -7,13 +10,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
 from atlas_cueing import rotation as rot
 from atlas_cueing.rotation import IDENTITY, Quat, Vec3
+from atlas_cueing.rotations import Array
 
-Array = NDArray[np.float64]
 EPS = 1e-14
 
 number = st.floats(-1.0, 1.0, allow_subnormal=False)
@@ -273,7 +276,7 @@ def rate_integral(t: float) -> Vec3:
 
 
 def quaternion_rate(frame: str, t: float, q: Array) -> Array:
-    """q' = 1/2 w q in the base frame, 1/2 q w in the body frame, as matrices written out for this test."""
+    """q' = 1/2 w q in the base frame, 1/2 q w in the body frame, written as matrices."""
     x, y, z = rate(t)
     s = 1.0 if frame == "base" else -1.0
     m = np.array(
@@ -295,7 +298,10 @@ def fine(frame: str, q: Quat, end: float, n: int = 2000) -> Array:
 
 
 def coarse(frame: str, q: Quat, end: float, n: int, commutator: float = 1.0) -> Quat:
-    """n steps of the code under test; a commutator of -1 swaps the ends of each step, which changes its sign."""
+    """n steps of the code under test.
+
+    A commutator of -1 swaps the ends of each step, which changes its sign.
+    """
     step, h = rot.integrate_base if frame == "base" else rot.integrate_body, end / n
     for i in range(n):
         t0, t1 = i * h, (i + 1) * h

@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from atlas_cueing import rotation
-from atlas_cueing.rotations import accumulated, exp, geodesic, multiply
+from atlas_cueing.rotations import accumulated, cross, exp, geodesic, multiply, rotate, rotate_back
 
 RANDOM = np.random.default_rng(3)
 P, Q = (Rotation.random(50, rng=RANDOM) for _ in range(2))
@@ -13,6 +13,20 @@ P, Q = (Rotation.random(50, rng=RANDOM) for _ in range(2))
 
 def quats(r: Rotation) -> np.ndarray:
     return r.as_quat(scalar_first=True)
+
+
+VECTORS = RANDOM.normal(size=(2, 50, 3))
+
+
+def test_cross_is_that_of_numpy_to_the_last_bit() -> None:
+    np.testing.assert_array_equal(cross(*VECTORS), np.cross(*VECTORS))
+    np.testing.assert_array_equal(cross(*VECTORS[:, ::3]), np.cross(*VECTORS[:, ::3]))
+
+
+def test_vectors_turn_as_scipy_turns_them_and_back() -> None:
+    v, _ = VECTORS
+    np.testing.assert_allclose(rotate(quats(P), v), P.apply(v), rtol=0, atol=1e-14)
+    np.testing.assert_allclose(rotate_back(quats(P), v), P.inv().apply(v), rtol=0, atol=1e-14)
 
 
 def test_multiply_is_composition() -> None:

@@ -1,35 +1,48 @@
-"""Vehicle state to cue: what the platform should do, before anyone asks whether it can.
+"""Vehicle state to cue: what the platform should do, before it is asked whether it can.
 
 A rotation method turns the vehicle into an orientation of the sphere; the stage adds what
 acceleration it can. Nothing is ever washed out to neutral.
+
+Each method is one module with its parameters, its rotation and its declaration METHOD; `methods`
+has the table of them.
 """
 
-from .cueing import Cueing, CueSource, RotationMethod, build_cueing
-from .parameters import (
-    CLASSICAL_STAGE,
-    AttitudeParameters,
-    BlendParameters,
-    ClassicalParameters,
-    ForceParameters,
-    HorizonParameters,
+from .attitude import AttitudeParameters
+from .blend import BlendParameters
+from .cabin import SlowTurnParameters
+from .classical import CLASSICAL_STAGE, ClassicalParameters
+from .cueing import Cueing, build_cueing
+from .force import ForceParameters
+from .method import (
+    CueSource,
+    Method,
     MethodParameters,
-    PreviewParameters,
-    SlowTurnParameters,
-    StageParameters,
+    PlanParameters,
+    Rotation,
+    RotationParameters,
 )
+from .methods import CAUSAL_METHODS, DEFAULT_METHOD, METHODS
+from .preview import PreviewParameters
+from .stage.stage_parameters import MpcParameters, StageParameters
 
 __all__ = [
+    "CAUSAL_METHODS",
     "CLASSICAL_STAGE",
+    "DEFAULT_METHOD",
+    "METHODS",
     "AttitudeParameters",
     "BlendParameters",
     "ClassicalParameters",
     "CueSource",
     "Cueing",
     "ForceParameters",
-    "HorizonParameters",
+    "Method",
     "MethodParameters",
+    "MpcParameters",
+    "PlanParameters",
     "PreviewParameters",
-    "RotationMethod",
+    "Rotation",
+    "RotationParameters",
     "SlowTurnParameters",
     "StageParameters",
     "build_cueing",

@@ -2,12 +2,35 @@
 
 # mypyc: runs every tick
 
+from dataclasses import dataclass
+from math import pi
+
 from ..rotation import Quat, Vec3, flip, subtract
 from ..signals import VehicleState
-from .cabin import Cabin, cabin_rate
+from .cabin import SLOW_TURN, Cabin, SlowTurnParameters, cabin_rate, slow_turn
 from .damping import DampedVector
-from .parameters import BlendParameters
-from .tilt import ForceDirection, aligned, misalignment
+from .method import Method
+from .parameter import ONES, Parameter
+from .stage.stage_parameters import GAIN
+from .tilt import HOLD, ForceDirection, aligned, misalignment
+
+
+@dataclass(frozen=True, slots=True)
+class BlendParameters:
+    """Parameters of `blend`; METHOD says what each is.
+
+    bandwidth: natural frequency of the filter on the force whose turning the slow turn goes along
+        with, rad/s (assumed); fixed.
+    """
+
+    rotation_gain: Vec3 = ONES
+    bandwidth: float = 2.0 * pi
+    hold: float = 1.5
+    turn: SlowTurnParameters = SLOW_TURN
+
+    def rotation(self, dt: float) -> "BlendRotation":
+        """Make the rotation that begins at the first state; dt in s."""
+        return BlendRotation(dt, self)
 
 
 class BlendRotation:
@@ -29,7 +52,7 @@ class BlendRotation:
         self._parts: tuple[Cabin, ForceDirection, DampedVector] | None = None
 
     def step(self, vehicle: VehicleState) -> tuple[Quat, Vec3]:
-        """Orientation q_WS and rate w_WS_W (rad/s) of the cue."""
+        """Give orientation q_WS and rate w_WS_W (rad/s) of the cue for the next vehicle state."""
         w_S, f_S = cabin_rate(self._parameters.rotation_gain, vehicle), flip(vehicle.f_B)
         if self._parts is None:
             self._parts = self._begin(vehicle, w_S, f_S)
@@ -51,3 +74,21 @@ class BlendRotation:
         cabin = Cabin(dt, aligned(vehicle, parameters.hold), w_S, parameters.turn)
         direction = ForceDirection(dt, parameters.bandwidth, parameters.hold, f_S)
         return cabin, direction, DampedVector(parameters.bandwidth, dt, w_S)
+
+
+METHOD = Method(
+    "blend",
+    "body rates one to one, plus a slow turn towards the vehicle's specific force",
+    BlendParameters(),
+    (
+        Parameter(
+            "rotation_gain",
+            "rotation_gain",
+            GAIN,
+            "factor on the vehicle's rates about the cabin's x, y, z",
+            "one to one",
+        ),
+        *slow_turn("align", 90.0),
+        HOLD,
+    ),
+)

@@ -2,6 +2,9 @@
 
 # mypyc: runs every tick
 
+from dataclasses import dataclass
+from math import radians
+
 from ..rotation import (
     ZERO,
     Quat,
@@ -23,7 +26,58 @@ from ..rotation import (
 )
 from ..signals import VehicleState
 from .damping import DampedVector
-from .parameters import SlowTurnParameters
+from .parameter import Parameter, Range
+
+
+@dataclass(frozen=True, slots=True)
+class SlowTurnParameters:
+    """The turn of the cabin that the vehicle does not make: rate in rad/s, times in s.
+
+    `slow_turn` says what each is. The acceleration of the turn stays below 2 rate / (e smoothing),
+    reached when the rate flips from one limit to the other.
+    """
+
+    rate: float = radians(3.0)
+    time: float = 2.0
+    smoothing: float = 0.25
+
+
+SLOW_TURN = SlowTurnParameters()
+CUSTOMARY = "3 deg/s is the customary limit (Groen & Bles, J. Vestibular Research 14, 2004)"
+
+
+def slow_turn(verb: str, fastest: float, source: str = CUSTOMARY) -> tuple[Parameter, ...]:
+    """Declare the parameters of a method's field `turn`, of type SlowTurnParameters.
+
+    Args:
+        verb: what the turn does, which begins the keys.
+        fastest: upper end of the range of its rate, deg/s.
+        source: where the default of the rate comes from.
+
+    """
+    return (
+        Parameter(
+            f"{verb}_rate_deg_s",
+            "turn.rate",
+            Range(0.0, fastest, above=True),
+            "largest rate of the turn that the vehicle does not make",
+            source,
+        ),
+        Parameter(
+            f"{verb}_time_s",
+            "turn.time",
+            Range(0.01, 1000.0),
+            "an error is taken back in about this time while the rate allows",
+            "assumed",
+        ),
+        Parameter(
+            f"{verb}_smoothing_s",
+            "turn.smoothing",
+            Range(0.01, 1000.0),
+            "time constant of the critically damped filter on the rate",
+            "assumed",
+        ),
+    )
 
 
 class SlowTurn:
@@ -40,7 +94,10 @@ class SlowTurn:
         self._damped = DampedVector(1.0 / parameters.smoothing, dt, ZERO)
 
     def step(self, error: Vec3, w: Vec3) -> Vec3:
-        """Rate after one tick (rad/s), for the rotation vector `error` (rad) still to go and the lasting rate w (rad/s)."""
+        """Give the rate (rad/s, S) one tick on.
+
+        error: rotation vector still to go (rad, S); w: the lasting rate (rad/s, S).
+        """
         wish = add(scale(1.0 / self._time, error), w)
         size = norm(wish)
         return self._damped.step(wish if size <= self._rate else scale(self._rate / size, wish))
@@ -64,7 +121,10 @@ class Cabin:
         self.q_WS = integrate_body(self.q_WS, self._turn, before, w_S, self._dt)
 
     def correct(self, error_S: Vec3, w_S: Vec3 = ZERO) -> None:
-        """Turn slowly for the same tick, by what is then left (rotation vector error_S, rad, S) and with w_S (rad/s, S)."""
+        """Turn slowly for the same tick.
+
+        error_S: rotation vector that is then left (rad, S); w_S: the lasting rate (rad/s, S).
+        """
         before, self._w_slow = self._w_slow, self._slow.step(error_S, w_S)
         slow = scale(0.5 * self._dt, add(before, self._w_slow))
         # as if both turns were made at once, to second order
@@ -73,17 +133,20 @@ class Cabin:
 
     @property
     def cue(self) -> tuple[Quat, Vec3]:
-        """Orientation q_WS and rate w_WS_W (rad/s)."""
+        """The orientation q_WS and the rate w_WS_W (rad/s)."""
         return self.q_WS, rotate(self.q_WS, add(self._w_S, self._w_slow))
 
 
 def upright(q_NB: Quat) -> Quat:
-    """q_WS of a cabin that stands in W as the vehicle stands in N, with W's x along the vehicle's heading."""
+    """Give q_WS of a cabin that stands in W as the vehicle does in N.
+
+    W's x lies along the vehicle's heading.
+    """
     heading = to_euler(q_NB)[0]
     return flip_rotation(multiply(from_euler(-heading, 0.0, 0.0), q_NB))
 
 
 def cabin_rate(gain: Vec3, vehicle: VehicleState) -> Vec3:
-    """The vehicle's body rates as a rate of the cabin (rad/s, S), with a gain for each cabin axis."""
+    """Give the vehicle's body rates as the cabin's (rad/s, S), with a gain for each axis of S."""
     x, y, z = flip(vehicle.w_NB_B)
     return (gain[0] * x, gain[1] * y, gain[2] * z)

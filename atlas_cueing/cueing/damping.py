@@ -1,4 +1,4 @@
-"""The critically damped second-order system: the one filter of cueing."""
+"""The critically damped second-order system: the only filter of the rotation methods."""
 
 # mypyc: runs every tick
 
@@ -8,20 +8,21 @@ from ..rotation import ZERO, Vec3
 
 
 class CriticalDamping:
-    """x'' = omega^2 (target - x) - 2 omega x', stepped exactly for a target that is constant over each step.
+    """The filter x'' = omega^2 (target - x) - 2 omega x', stepped exactly.
 
+    The target is constant over each step.
     The kernel omega^2 t exp(-omega t) is positive and of unit area, so x never leaves the convex
     hull of its targets, and |x'| is at most omega / e times the width of that hull.
     """
 
     def __init__(self, omega: float, dt: float) -> None:
-        """Natural frequency omega in rad/s; dt in s."""
+        """Prepare steps of dt (s) for the natural frequency omega (rad/s)."""
         decay = exp(-omega * dt)
         self._x_from_z, self._x_from_v = decay * (1.0 + omega * dt), decay * dt
         self._v_from_z, self._v_from_v = -decay * omega * omega * dt, decay * (1.0 - omega * dt)
 
     def step(self, x: float, v: float, target: float) -> tuple[float, float]:
-        """State (x, x') after one step."""
+        """Give the state (x, x') after one step from (x, v)."""
         z = x - target
         return (
             target + self._x_from_z * z + self._x_from_v * v,
@@ -38,7 +39,7 @@ class DampedVector:
         self.x, self.v = x, ZERO
 
     def step(self, target: Vec3) -> Vec3:
-        """The vector one step on."""
+        """Give the vector one step on."""
         damping, before, rate = self._damping, self.x, self.v
         x, vx = damping.step(before[0], rate[0], target[0])
         y, vy = damping.step(before[1], rate[1], target[1])

@@ -27,14 +27,24 @@ from ..rotation import (
 from ..signals import VehicleState
 from .cabin import upright
 from .damping import DampedVector
+from .parameter import Parameter, Range
 
 _UP: Vec3 = (0.0, 0.0, 1.0)
 
+HOLD = Parameter(
+    "hold_force_m_s2",
+    "hold",
+    Range(0.01, 100.0),
+    "the cabin follows the specific force fully from twice this magnitude on, and not below it",
+    "assumed",
+)
+"""Declares the field `hold` of a method's parameters, m/s^2."""
+
 
 def aligned(vehicle: VehicleState, hold: float) -> Quat:
-    """q_WS of the vehicle's attitude, turned the shortest way so that its specific force points up in W.
+    """Give q_WS of the vehicle's attitude, turned so that its specific force points up in W.
 
-    Not turned where the force is below `hold`, m/s^2.
+    The turn is the shortest, and none where the force is below `hold`, m/s^2.
     """
     q_WS = upright(vehicle.q_NB)
     f_W = rotate(q_WS, flip(vehicle.f_B))
@@ -42,10 +52,10 @@ def aligned(vehicle: VehicleState, hold: float) -> Quat:
 
 
 def misalignment(q_WS: Quat, f_S: Vec3, hold: float) -> Vec3:
-    """Turn of the cabin (rotation vector, rad, S) that would bring W's up to the direction of f_S.
+    """Give the turn of the cabin (rotation vector, rad, S) that brings W's up to the force f_S.
 
     There is no direction near zero force: the turn fades out where |f_S| falls from twice `hold` to
-        `hold`, m/s^2.
+    `hold`, m/s^2.
     """
     up_S = up_in_body(q_WS)
     force = norm(f_S)
@@ -58,14 +68,17 @@ def misalignment(q_WS: Quat, f_S: Vec3, hold: float) -> Vec3:
 
 
 def _across(up_S: Vec3) -> Vec3:
-    """A unit vector across up_S, near the roll axis where that can be: any will do for a force straight down."""
+    """Give a unit vector across up_S, near the roll axis where that can be.
+
+    For a force straight down any will do.
+    """
     x, y, z = up_S
     across = (1.0 - x * x, -x * y, -x * z) if abs(x) < 0.7 else (-y * x, 1.0 - y * y, -y * z)
     return scale(1.0 / norm(across), across)
 
 
 def fade_in(force: float, hold: float) -> float:
-    """0 up to a force of `hold`, 1 from twice that on, and a cubic with level ends between."""
+    """Give a weight: 0 up to a force of `hold`, 1 from twice that on, a smooth cubic between."""
     x = min(max(force / hold - 1.0, 0.0), 1.0)
     return x * x * (3.0 - 2.0 * x)
 
@@ -79,22 +92,25 @@ class ForceDirection:
         w = (f' x f) / |f|^2 + (w_vehicle . f) f / |f|^2
 
     with the first term across f, and the vehicle's own turn about it. Near zero force, where f has
-    no direction, it fades over to the vehicle's rate (`presence`).
+    no direction, it fades over to the vehicle's rate (`fade_in`).
     """
 
     def __init__(self, dt: float, bandwidth: float, hold: float, f_S: Vec3) -> None:
-        """Begin with the lasting force f_S, m/s^2; natural frequency `bandwidth` in rad/s.
+        """Begin with the lasting force f_S (m/s^2).
 
-        Dt in s.
+        bandwidth: natural frequency of the filter, rad/s; hold: as in `fade_in`; dt in s.
         """
         self._force, self._hold = DampedVector(bandwidth, dt, f_S), hold
 
     def step(self, f_S: Vec3) -> Vec3:
-        """Take the force one tick on; the filtered force, m/s^2 in S."""
+        """Take in the force of the next tick; gives the filtered force (m/s^2, S)."""
         return self._force.step(f_S)
 
     def carried(self, w_S: Vec3) -> Vec3:
-        """Rate (rad/s, S) that carries W's up along with f, and the cabin about it with the vehicle's rate w_S."""
+        """Give the rate (rad/s, S) that carries W's up along with f.
+
+        About it the cabin turns with the vehicle's rate w_S (rad/s, S).
+        """
         f_S, rate = self._force.x, self._force.v
         force = norm(f_S)
         there = fade_in(force, self._hold)

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..rotations import Array, accumulated, exp, geodesic
+from ..rotations import Array, accumulated, cross, exp, geodesic
 from .run_columns import RunColumns, Tail, gathered
 from .statistics import Peaks
 
@@ -90,10 +90,4 @@ def _turns(h: Array, w: Array, alpha: Array) -> Array:
     """Quaternions (n - 1, 4) of the turns over steps h (n - 1,), s, from rates and accelerations (n, 3) at their ends."""
     h = h[:, None]
     slowing = alpha[:-1] - alpha[1:]
-    return exp(0.5 * h * (w[:-1] + w[1:]) + h * h / 12.0 * (slowing + _cross(w[1:], w[:-1])))
-
-
-def _cross(a: Array, b: Array) -> Array:
-    """Vector products (n, 3), each component contiguous."""
-    (ax, ay, az), (bx, by, bz) = a.T, b.T
-    return np.array([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]).T
+    return exp(0.5 * h * (w[:-1] + w[1:]) + h * h / 12.0 * (slowing + cross(w[1:], w[:-1])))

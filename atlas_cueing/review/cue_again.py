@@ -9,7 +9,7 @@ from ..errors import InputError, LogError, OutputError, ScenarioError
 from ..recording import Log, McapRecorder
 from ..run import prepare
 from ..scenario import Scenario, recorded_vehicle
-from ..scenario.cueing_table import ALL_METHODS
+from ..scenario.cueing_table import TABLES
 from ..scenario.load import resolve
 from ..scenario.overrides import parse_overrides
 from ..scenario.reading import read_toml
@@ -69,7 +69,7 @@ def _cued_by(file: Path, settings: Sequence[str]) -> Scenario:
     ):
         # a log's scenario names every value, so that the old method's defaults would pass for
         # somebody's wish
-        method = ALL_METHODS.get(str(old.get("method")))
+        method = TABLES.get(str(old.get("method")))
         data["cueing"] = _changed(old, method().model_dump(mode="json") if method else {}) | {
             "method": old.get("method")
         }

@@ -2,11 +2,9 @@
 
 from collections.abc import Sequence
 
-from ..cueing import CueSource
-from ..cueing import build_cueing as build_cueing
+from ..cueing import CueSource, PlanParameters, build_cueing
 from ..errors import InputError, Mistake, ScenarioError, SlipConditionError
 from ..pipeline import Pipeline
-from ..scenario.cueing_table import PreviewTable
 from ..scenario.mistakes import SET, dotted, shown
 from ..scenario.platform_file import without_room
 from ..scenario.scenario import Scenario
@@ -79,19 +77,13 @@ def _check_room(scenario: Scenario, dt: float) -> None:
 
 
 def _cueing(scenario: Scenario, dt: float, states: Sequence[VehicleState] | None) -> CueSource:
-    method, platform = scenario.file.cueing, scenario.platform
-    stage_limits = platform.stage_limit_values()
-    if not isinstance(method, PreviewTable):
-        return build_cueing(
-            method.parameters(), method.stage_parameters(), stage_limits, platform.head_S, dt
-        )
+    table, platform = scenario.file.cueing, scenario.platform
+    method, stage_limits = table.parameters(), platform.stage_limit_values()
+    if not isinstance(method, PlanParameters):
+        return build_cueing(method, table.stage_parameters(), stage_limits, platform.head_S, dt)
     if states is None:
         raise InputError(
-            f"scenario {scenario.name!r}: method 'preview' needs the whole flight beforehand, so it"
-            " does not fly live; use run, batch or recue, or another method"
+            f"scenario {scenario.name!r}: method {table.declaration.name!r} needs the whole flight"
+            " beforehand, so it does not fly live; use run, batch or recue, or another method"
         )
-    from ..cueing.preview import (
-        preview,  # with scipy.sparse, which takes a quarter of a second to load
-    )
-
-    return preview(states, method.parameters(), stage_limits, platform.head_S, dt)
+    return method.plan(states, stage_limits, platform.head_S, dt)

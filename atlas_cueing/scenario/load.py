@@ -9,9 +9,10 @@ from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
+from ..cueing import DEFAULT_METHOD
 from ..errors import Mistake, ScenarioError
 from ..printable import is_name
-from .cueing_table import ALL_METHODS, DEFAULT_METHOD
+from .cueing_table import TABLES
 from .mistakes import MOST_SHOWN, SET, FileNamer, Key, dotted, mistakes_of, more, nearest
 from .overrides import Overrides, apply_overrides, parse_overrides, with_own
 from .platform_file import Platform, presets
@@ -218,12 +219,12 @@ def _broken_rules(data: dict[str, Any], name_file: FileNamer) -> list[Mistake]:
 def _leave_method(data: dict[str, Any], method: Any) -> None:
     """When another method is set from the command line, leave out what only the file's own method knows."""
     table = data.get("cueing")
-    if not isinstance(table, dict) or not isinstance(method, str) or method not in ALL_METHODS:
+    if not isinstance(table, dict) or not isinstance(method, str) or method not in TABLES:
         return
-    old = ALL_METHODS.get(str(table.get("method", DEFAULT_METHOD)))
+    old = TABLES.get(str(table.get("method", DEFAULT_METHOD)))
     for key in [
         key
         for key in table
-        if old and key in old.model_fields and key not in ALL_METHODS[method].model_fields
+        if old and key in old.model_fields and key not in TABLES[method].model_fields
     ]:
         del table[key]

@@ -1,7 +1,4 @@
-"""From pydantic's errors to the user's mistakes.
-
-File, key as written, value found, what is allowed.
-"""
+"""From pydantic's errors to mistakes: file, key as written, value found, what is allowed."""
 
 import re
 from collections.abc import Collection, Sequence
@@ -29,11 +26,15 @@ _LONGEST_VALUE = 60  # characters of a found value that a message repeats
 def mistakes_of(
     error: ValidationError, table: type[ScenarioTable], data: dict[str, Any], name_file: "FileNamer"
 ) -> list[Mistake]:
-    """Every mistake once, in the order of the file.
+    """List every mistake once, in the order of the file.
 
-    `name_file` says which file (or option) a key came from.
+    Args:
+        error: what pydantic found.
+        table: the class that was to be validated.
+        data: the file as it was read.
+        name_file: gives the file (or option) that a key came from.
 
-    Of very many only some are looked at, and a last one says how many are left.
+    Of very many only MOST_SHOWN are looked at, and a last one says how many are left.
     """
     found: dict[Key, tuple[tuple[int, ...], Mistake]] = {}
     details = error.errors(include_url=False)
@@ -48,30 +49,30 @@ def mistakes_of(
 
 
 def more(count: int, file: str) -> list[Mistake]:
-    """What stands for `count` mistakes that are not shown: nothing for none."""
+    """List what stands for `count` mistakes that are not shown; nothing for none."""
     return [Mistake(file, "file", "", f"and {count} more mistakes")] if count > 0 else []
 
 
 class FileNamer:
-    """Which file a key came from: `--set` for what was set on the command line, else the file itself."""
+    """The file that a key came from: `--set` for the command line, else the file itself."""
 
     def __init__(self, file: str, overridden: Collection[Key] = ()) -> None:
         self._file = file
         self._overridden = overridden
 
     def __call__(self, key: Key) -> str:
-        """Name for messages."""
+        """Give the name for messages of the file that a key came from."""
         return SET if any(_related(key, path) for path in self._overridden) else self._file
 
 
 def _related(key: Key, path: Key) -> bool:
-    """Whether one holds the other."""
+    """Whether one key holds the other."""
     return key[: len(path)] == path or path[: len(key)] == key
 
 
 @lru_cache(maxsize=64)  # the keys of a sweep, again and again
 def dotted(key: Key) -> str:
-    """`vehicle.input.0.value`: the key as `--set` takes it.
+    """Write a key as `--set` takes it, such as `vehicle.input.0.value`.
 
     A part that would not print in one line is quoted.
     """
@@ -79,9 +80,9 @@ def dotted(key: Key) -> str:
 
 
 def nearest(word: str, known: Collection[str]) -> str:
-    """What is allowed instead of an unknown word.
+    """Say what is allowed instead of an unknown word.
 
-    The nearest one first, then all if they are few.
+    The nearest one comes first, then all if they are few.
     """
     near = get_close_matches(word, known, n=1, cutoff=0.5)
     guess = f"did you mean {near[0]!r}? " if near else ""
@@ -93,9 +94,9 @@ def nearest(word: str, known: Collection[str]) -> str:
 
 
 def shown(value: Any) -> str:
-    """A found value as TOML would write it, cut to a readable length.
+    """Write a found value as TOML would, cut to a readable length.
 
-    Empty when there is none or it is a table.
+    It is empty when there is no value or it is a table.
     """
     if value is None or isinstance(value, dict):
         return ""
@@ -131,7 +132,7 @@ def _allowed(detail: ErrorDetails, table: type[ScenarioTable]) -> str:
 
 
 def _known_keys(table: type[ScenarioTable], loc: Sequence[str | int]) -> list[str]:
-    """Keys of the table at `loc`; a method's tag in `loc` picks one of several tables."""
+    """List the keys of the table at `loc`; a method's tag in `loc` picks one of several tables."""
     tables = [table]
     for part in loc:
         if isinstance(part, int):
@@ -155,9 +156,9 @@ def _type(table: type[ScenarioTable], field: str) -> Any:
 
 
 def _as_written(loc: Sequence[str | int], data: Any) -> tuple[Key, Any]:
-    """The key as it stands in the file, and its value.
+    """Give the key as it stands in the file, and its value.
 
-    Without union tags, and without places in a number that was spread.
+    It is without union tags, and without the places in a number that stands for three.
     """
     key: list[str | int] = []
     value = data
@@ -172,7 +173,7 @@ def _as_written(loc: Sequence[str | int], data: Any) -> tuple[Key, Any]:
 
 
 def _position(key: Key, data: Any) -> tuple[int, ...]:
-    """Where the key stands in the file, for sorting; a missing one after its table's last."""
+    """Give the key's place in the file, for sorting; a missing one comes after its table's last."""
     places = []
     for part in key:
         if isinstance(data, dict):

@@ -10,12 +10,13 @@ from typing import Annotated, Any
 import tomli_w
 from pydantic import BeforeValidator
 
+from ..cueing import DEFAULT_METHOD
 from ..errors import InputError, StartError
 from ..printable import is_name, utf8
 from ..recording.recorder import MAX_CHUNK_TICKS
 from ..vehicles.jsbsim.private_copy import beside
 from ..vehicles.jsbsim.user_models import read_users, user_files, user_model
-from .cueing_table import BlendTable, CueingTable, PreviewTable
+from .cueing_table import TABLES, CueingTable
 from .mistakes import FileNamer, nearest
 from .platform_file import NAME, Platform, presets
 from .tables import ScenarioTable, number, object_to, refuse, text, whole
@@ -90,7 +91,7 @@ class ScenarioFile(ScenarioTable):
     duration_s: Annotated[float, number(0.0, 86400.0, above=True)] | None = None
     vehicle: VehicleTable
     platform: PlatformChoice
-    cueing: CueingTable = BlendTable()
+    cueing: CueingTable = TABLES[DEFAULT_METHOD]()
     recording: RecordingTable = RecordingTable()
     sweep: Annotated[None, BeforeValidator(_many_runs)] = None  # `load_variants` takes it out
 
@@ -129,7 +130,7 @@ class Scenario:
     @property
     def needs_whole_flight(self) -> bool:
         """Whether the cueing method has to know every state of the flight before the first cue, so that it cannot fly live."""
-        return isinstance(self.file.cueing, PreviewTable)
+        return self.file.cueing.declaration.needs_flight
 
     @property
     def live_flight(self) -> LiveFlight:

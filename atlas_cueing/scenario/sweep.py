@@ -22,9 +22,9 @@ from typing import Annotated, Any, TypeAlias
 
 from pydantic import ValidationError
 
+from ..cueing import CAUSAL_METHODS
 from ..errors import Mistake, ScenarioError
 from ..vehicles import own_aircraft, own_scripts
-from .cueing_table import METHODS
 from .load import Known, resolve
 from .mistakes import SET, FileNamer, Key, dotted, mistakes_of, more, nearest, shown
 from .overrides import Overrides, apply_overrides, parse_overrides, with_own
@@ -49,7 +49,7 @@ _NAMES: dict[Key, Callable[[], Collection[str]]] = {
     ("vehicle", "script"): own_scripts,
     ("vehicle", "aircraft"): own_aircraft,
     ("platform", "preset"): presets,
-    ("cueing", "method"): lambda: METHODS,
+    ("cueing", "method"): lambda: CAUSAL_METHODS,
 }
 _ALLOWED = (
     "allowed: a list of values, or a range { low = ..., high = ... } together with sweep.draws"

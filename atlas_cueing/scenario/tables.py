@@ -20,21 +20,21 @@ class ScenarioTable(BaseModel):
 
 
 def refuse(allowed: str) -> PydanticCustomError:
-    """The error to raise from a validator: its text says what is allowed."""
+    """Make the error to raise from a validator; its text says what is allowed."""
     return PydanticCustomError("allowed", "{allowed}", {"allowed": allowed})
 
 
 def object_to(reason: str) -> PydanticCustomError:
-    """The error to raise from a validator whose text says both what is wrong and what is allowed."""
+    """Make the error of a validator whose text says what is wrong and what is allowed."""
     return PydanticCustomError("refused", "{reason}", {"reason": reason})
 
 
 def number(lower: float, upper: float, *, above: bool = False) -> BeforeValidator:
-    """A finite number, `lower <= value <= upper`; with `above`, `lower` itself is not allowed."""
+    """Validate a finite number, lower <= value <= upper; with `above`, not `lower` itself."""
     text = f"a number, {lower:g} {'<' if above else '<='} value <= {upper:g}"
 
     def check(value: Any) -> float:
-        """The value, or a refusal that tells what is allowed."""
+        """Return the value; raise a refusal that says what is allowed."""
         # An integer of TOML has no bound, and float() of a huge one overflows: compare first.
         if (
             isinstance(value, bool)
@@ -50,10 +50,10 @@ def number(lower: float, upper: float, *, above: bool = False) -> BeforeValidato
 
 
 def whole(lower: int, upper: int) -> BeforeValidator:
-    """A whole number, `lower <= value <= upper`."""
+    """Validate a whole number, `lower <= value <= upper`."""
 
     def check(value: Any) -> int:
-        """The value, or a refusal that tells what is allowed."""
+        """Return the value; raise a refusal that says what is allowed."""
         if isinstance(value, bool) or not isinstance(value, int) or not lower <= value <= upper:
             raise refuse(f"a whole number, {lower} <= value <= {upper}")
         return value
@@ -93,7 +93,7 @@ def _one_or_three(value: Any) -> Any:
 
 
 def check_text(value: Any, allowed: str) -> None:
-    """Refuse what is no string; of a number it is said how it is written as a text."""
+    """Refuse what is no string; of a number the message says how to write it as a text."""
     if isinstance(value, str):
         return
     number = (
@@ -109,10 +109,10 @@ def _has_few_digits(number: float) -> bool:
 
 
 def text(allowed: str, accept: Callable[[str], bool]) -> BeforeValidator:
-    """A string that `accept` likes."""
+    """Validate a string that `accept` returns True for; `allowed` is the message otherwise."""
 
     def check(value: Any) -> str:
-        """The value, or a refusal that tells what is allowed."""
+        """Return the value; raise a refusal that says what is allowed."""
         check_text(value, allowed)
         if not accept(value):
             raise refuse(allowed)
@@ -128,7 +128,7 @@ Finite: TypeAlias = Annotated[float, BeforeValidator(_finite)]
 
 
 def tables_in(annotation: Any) -> list[type[ScenarioTable]]:
-    """The tables that a key of this type may hold."""
+    """List the tables that a key of this type may hold."""
     if isinstance(annotation, type) and issubclass(annotation, ScenarioTable):
         return [annotation]
     return [table for argument in get_args(annotation) for table in tables_in(argument)]

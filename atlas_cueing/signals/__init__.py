@@ -1,4 +1,4 @@
-"""The data that flows, one way: VehicleState -> Cue -> Motion -> WheelSpeeds, gathered in one Tick."""
+"""The data that flows one way: VehicleState -> Cue -> Motion -> WheelSpeeds, in one Tick."""
 
 from .attitude_jump import attitude_jump
 from .felt import STANDARD_GRAVITY, direction_error, felt

@@ -7,7 +7,10 @@ from .states import VehicleState
 
 
 def attitude_jump(before: VehicleState, now: VehicleState) -> float:
-    """Angle (rad) by which the attitude changed beyond what the body rates explain (trapezoid) between two states."""
+    """Angle (rad) of the change of attitude between two states that the body rates do not explain.
+
+    The rates are integrated by the trapezoid.
+    """
     turned = multiply(conjugate(before.q_NB), now.q_NB)
     explained = scale(0.5 * (now.time - before.time), add(before.w_NB_B, now.w_NB_B))
     return geodesic(turned, exp(explained))

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..rotations import Array
+from ..rotations import Array, cross, rotate, rotate_back
 
 STANDARD_GRAVITY = 9.80665  # m/s^2, by definition (CGPM 1901)
 _FLU_TO_FRD = np.array([1.0, -1.0, -1.0])
@@ -12,7 +12,7 @@ _FLU_TO_FRD = np.array([1.0, -1.0, -1.0])
 def felt(
     q_WS: ArrayLike, w_WS_W: ArrayLike, alpha_WS_W: ArrayLike, a_WS_W: ArrayLike, head_S: ArrayLike
 ) -> tuple[Array, Array]:
-    """Specific force (m/s^2) and angular rate (rad/s) at the rider's head, both (n, 3) in cabin FRD axes.
+    """Specific force (m/s^2) and angular rate (rad/s) at the rider's head, (n, 3), FRD axes.
 
     f = R_SW (a + alpha x r + w x (w x r) - g_W) with r = R_WS head_S and g_W = (0, 0, -9.80665).
 
@@ -24,32 +24,13 @@ def felt(
     )
     force_W = a + np.array([0.0, 0.0, STANDARD_GRAVITY])
     if head.any():
-        r = _turn(q, np.broadcast_to(head, w.shape))
-        force_W = force_W + _cross(alpha, r) + _cross(w, _cross(w, r))
-    to_cabin = q * np.array([1.0, -1.0, -1.0, -1.0])
-    return _turn(to_cabin, force_W) * _FLU_TO_FRD, _turn(to_cabin, w) * _FLU_TO_FRD
+        r = rotate(q, np.broadcast_to(head, w.shape))
+        force_W = force_W + cross(alpha, r) + cross(w, cross(w, r))
+    return rotate_back(q, force_W) * _FLU_TO_FRD, rotate_back(q, w) * _FLU_TO_FRD
 
 
 def direction_error(f: ArrayLike, g: ArrayLike) -> Array:
-    """Angle (rad, (n,)) between two specific forces (n, 3); 0 where one of them is zero."""
+    """Angles (n,), rad, between two specific forces (n, 3); 0 where one of them is zero."""
     f, g = np.asarray(f, dtype=np.float64), np.asarray(g, dtype=np.float64)
-    error: Array = np.arctan2(np.linalg.norm(_cross(f, g), axis=1), np.sum(f * g, axis=1))
+    error: Array = np.arctan2(np.linalg.norm(cross(f, g), axis=1), np.sum(f * g, axis=1))
     return error
-
-
-def _turn(q: Array, v: Array) -> Array:
-    """Rotate each row of v (n, 3) by the same row of q (n, 4)."""
-    u = q[:, 1:]
-    t = 2.0 * _cross(u, v)
-    turned: Array = v + q[:, :1] * t + _cross(u, t)
-    return turned
-
-
-def _cross(a: Array, b: Array) -> Array:
-    """np.cross of rows to the last bit, in half the time."""
-    c = np.empty(np.broadcast(a, b).shape)
-    (ax, ay, az), (bx, by, bz) = a.T, b.T
-    np.subtract(ay * bz, az * by, out=c[:, 0])
-    np.subtract(az * bx, ax * bz, out=c[:, 1])
-    np.subtract(ax * by, ay * bx, out=c[:, 2])
-    return c

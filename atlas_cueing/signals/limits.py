@@ -16,7 +16,10 @@ class WheelLimits:
 
 @dataclass(frozen=True, slots=True)
 class StageLimits:
-    """Largest magnitude per axis x, y, z of W: travel from the centre m, speed m/s, acceleration m/s^2, jerk m/s^3."""
+    """Largest magnitude per axis x, y, z of W.
+
+    travel from the centre, m; speed, m/s; acceleration, m/s^2; jerk, m/s^3.
+    """
 
     travel: Vec3
     speed: Vec3

@@ -14,7 +14,7 @@ class Vehicle(Protocol):
 
     @property
     def state(self) -> VehicleState:
-        """State at the present time; the first one has time 0."""
+        """Give the state at the present time; the first one has time 0."""
 
     def advance(self) -> bool:
         """Go one step on; False when the flight is over.
@@ -24,20 +24,20 @@ class Vehicle(Protocol):
 
 
 class WheelDrive(Protocol):
-    """Whatever turns an allowed motion into wheel speeds."""
+    """The drive that turns an allowed motion into wheel speeds."""
 
     def speeds(self, motion: Motion) -> WheelSpeeds:
-        """Wheel speeds and accelerations for this motion."""
+        """Give the wheel speeds and accelerations for this motion."""
 
 
 class Sink(Protocol):
-    """Whatever keeps the ticks."""
+    """The recorder of a run's ticks."""
 
     def append(self, tick: Tick) -> None:
-        """Keep one tick; times strictly increase."""
+        """Record one tick; times strictly increase."""
 
     def status(self, time: float, state: str, reason: str) -> None:
-        """Keep a change of state at `time` (s)."""
+        """Record a change of state at `time` (s)."""
 
     def close(self, result: str, reason: str) -> None:
         """Finish: nothing comes after it."""

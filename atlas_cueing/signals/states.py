@@ -20,10 +20,13 @@ from ..rotation import Quat, Vec3
 
 @dataclass(slots=True, init=False)
 class VehicleState:
-    """Vehicle at `time` (s): attitude, body rates (rad/s, FRD) and specific force at the pilot's eye (m/s^2, FRD).
+    """The vehicle at `time` (s).
 
-    The force is scaled by standard gravity over local gravity, so that a vehicle at rest shows (0,
-    0, -9.80665) anywhere.
+    q_NB: attitude; w_NB_B: body rates, rad/s, FRD; f_B: specific force at the pilot's eye, m/s^2,
+    FRD.
+
+    The force is scaled by standard gravity over local gravity, so that a vehicle at rest shows
+    (0, 0, -9.80665) anywhere.
     """
 
     time: Final[float]
@@ -40,7 +43,11 @@ class VehicleState:
 
 @dataclass(slots=True, init=False)
 class Cue:
-    """Motion asked of the platform at `time`: sphere orientation and rate, stage position, velocity and acceleration (W)."""
+    """Motion asked of the platform at `time` (s).
+
+    q_WS and w_WS_W: the sphere's orientation and rate; p_WS_W, v_WS_W, a_WS_W: position, velocity
+    and acceleration of the stage.
+    """
 
     time: Final[float]
     q_WS: Final[Quat]

@@ -85,7 +85,8 @@ def tick_row(tick: Tick) -> tuple[float, ...]:
     u, du, limited = wheels.speed, wheels.acceleration, motion.limited
     # fmt: off
     return (
-        vehicle.time, q_NB[0], q_NB[1], q_NB[2], q_NB[3], w_NB[0], w_NB[1], w_NB[2], f[0], f[1], f[2],
+        vehicle.time, q_NB[0], q_NB[1], q_NB[2], q_NB[3], w_NB[0], w_NB[1], w_NB[2],
+        f[0], f[1], f[2],
         cue.time, q_cue[0], q_cue[1], q_cue[2], q_cue[3], w_cue[0], w_cue[1], w_cue[2],
         p_cue[0], p_cue[1], p_cue[2], v_cue[0], v_cue[1], v_cue[2], a_cue[0], a_cue[1], a_cue[2],
         motion.time, q[0], q[1], q[2], q[3], w[0], w[1], w[2], alpha[0], alpha[1], alpha[2],

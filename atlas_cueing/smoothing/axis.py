@@ -1,4 +1,4 @@
-"""One axis, jerk-limited: a target within reach is met exactly, any other one is approached by ruckig's shortest way.
+"""One jerk-limited axis: it meets a target within reach, and nears any other the shortest way.
 
 Within one tick of length h, two halves of constant jerk lead from (v, a) to any (v1, a1):
 
@@ -33,7 +33,7 @@ _ROUNDING = 1e-9
 
 @dataclass(slots=True, init=False)
 class Step:
-    """Where one tick leads: displacement, speed, acceleration, and whether the target was met at its end."""
+    """Where one tick leads: displacement, speed v, acceleration a, and if the target was met."""
 
     displacement: Final[float]
     v: Final[float]
@@ -83,7 +83,10 @@ class AxisSmoothing:
         self._input.minimum_duration = dt
 
     def clip(self, v: float, a: float) -> tuple[float, float]:
-        """Nearest target from which the axis can stay inside its speed limit, before and after: |v| + a^2 / 2J <= V."""
+        """Give the nearest target from which the axis can stay inside its speed limit.
+
+        That holds before and after it: |v| + a^2 / 2J <= V.
+        """
         if -self._cruise < v < self._cruise and -self.acceleration <= a <= self.acceleration:
             return v, a
         v = min(max(v, -self.speed), self.speed)
@@ -91,17 +94,17 @@ class AxisSmoothing:
         return v, min(max(a, -a_max), a_max)
 
     def towards(self, v: float, a: float, v_target: float, a_target: float) -> Step:
-        """State one tick after (v, a) on the way to the clipped target. Raises PlanningError."""
+        """Give the step from (v, a) on the way to the clipped target. Raises PlanningError."""
         v1, a1 = self.clip(v_target, a_target)
         return self._reach(v, a, v1, a1) or self._plan(v, a, v1, a1)
 
     def stopping(self, v: float, a: float) -> Step:
-        """State one tick into the closed-form stop from (v, a); needs no generator."""
+        """Give the step from (v, a) into the closed-form stop; it needs no generator."""
         displacement, v, a = Stop.plan(v, a, self.acceleration, self.jerk).at(self.dt)
         return Step(displacement, v, a, False)
 
     def _reach(self, v: float, a: float, v1: float, a1: float) -> Step | None:
-        """The step of two halves to (v1, a1), if it is inside the limits."""
+        """Give the step of two halves to (v1, a1), if it is inside the limits."""
         h = self.dt
         gained, missing = (a1 - a) / h, 4.0 * (v1 - v - a * h) / (h * h)
         j1, j2 = missing - gained, 3.0 * gained - missing
@@ -112,7 +115,7 @@ class AxisSmoothing:
         return Step(h * (v + h * (0.5 * a + h * (7.0 * j1 + j2) / 48.0)), v1, a1, True)
 
     def _plan(self, v: float, a: float, v1: float, a1: float) -> Step:
-        """One tick along ruckig's trajectory to (v1, a1), checked."""
+        """Give the step along ruckig's trajectory to (v1, a1), checked."""
         if not isfinite(v + a + v1 + a1):
             raise PlanningError(f"not finite: from ({v}, {a}) to ({v1}, {a1})")
         self._input.current_velocity, self._input.current_acceleration = [v], [a]
@@ -129,9 +132,9 @@ class AxisSmoothing:
         )
 
     def _checked(self, v: float, a: float, step: Step) -> Step:
-        """The step, if a jerk-limited motion leads to it from (v, a) and on inside the speed limit.
+        """Give the step, if a jerk-limited motion leads to it and on inside the speed limit.
 
-        Raises PlanningError.
+        Raises PlanningError otherwise.
 
         Around the straight line between its ends the acceleration can bend by at most J dt / 2,
         worth J dt^2 / 4 of speed; bringing it to zero afterwards takes a|a| / 2J of speed.

@@ -1,4 +1,4 @@
-"""The whole of smoothing: sphere and stage side by side."""
+"""Smoothing: sphere and stage side by side."""
 
 # mypyc: runs every tick
 
@@ -12,14 +12,14 @@ from .sphere import SphereSmoothing
 from .stage import StageSmoothing
 
 _UNIT: Final = 1e-6  # a quaternion whose norm is off by more is no orientation
-# rad/s; nobody asks a cabin for more, and the arithmetic stays far from overflow below it
+# rad/s; no cue of a cabin needs more, and the arithmetic stays far from overflow below it
 _ABSURD_RATE: Final = 1e3
 
 
 class Smoothing:
     """Turns cues into motion inside the limits of wheels and stage, at a fixed tick.
 
-    It starts at rest in the first cue's orientation and position. Whatever the cue is, every motion
+    It starts at rest in the first cue's orientation and position. For any cue, every motion
     keeps every limit; a cue that is no cue (not finite, no rotation, absurd) is answered with the
     certified stop. Motion times are its own: start + n dt.
     """
@@ -33,7 +33,7 @@ class Smoothing:
         wheel_limits: WheelLimits,
         stage_limits: StageLimits,
     ) -> None:
-        """Tick dt in s; the maps are J^-1 and J of the platform.
+        """Start at rest; dt in s; the maps are J^-1 and J of the platform.
 
         Raises ValueError for limits that leave no room to move.
         """
@@ -44,7 +44,7 @@ class Smoothing:
         self._ticks = 0
 
     def step(self, cue: Cue) -> Motion:
-        """Motion at the cue's time, one tick after the last one."""
+        """Give the motion at the cue's time, one tick after the last one."""
         if self._start is None:
             return self._begin(cue)
         self._ticks += 1

@@ -46,7 +46,7 @@ _OTHER_WAY: Final = 0.5
 
 
 class SphereSmoothing:
-    """Orientation, rate and acceleration of the sphere, one tick at a time, inside the wheels' limits."""
+    """Orientation, rate and acceleration of the sphere tick by tick, inside the wheels' limits."""
 
     def __init__(
         self, dt: float, wheels_from_sphere: Mat3, sphere_from_wheels: Mat3, limits: WheelLimits
@@ -72,7 +72,7 @@ class SphereSmoothing:
         )
 
     def step(self, cue: Cue) -> bool:
-        """Follow the cue for one tick; whether the wheels gave it.
+        """Follow the cue for one tick; return whether the wheels gave it.
 
         Raises PlanningError and stays where it is.
         """
@@ -96,10 +96,10 @@ class SphereSmoothing:
         self._cue_speed = self._speed
 
     def _to_go(self, cue: Cue) -> Vec3:
-        """Rotation vector (W) that would be left at the end of the tick if the sphere took the cue's rate (trapezoid).
+        """Give the rotation vector (rad, W) still to go at the end of the tick at the cue's rate.
 
-        By the shorter way, but a catch-up under way is not turned round by a cue that wanders past
-        half a turn.
+        The rate is integrated by the trapezoid. It goes by the shorter way, but a catch-up under
+        way is not turned round by a cue that wanders past half a turn.
         """
         self._left = continuous(difference(self.q_WS, cue.q_WS), self._left)
         to_go = log_unwound(self._left)
@@ -110,7 +110,7 @@ class SphereSmoothing:
         return subtract(to_go, scale(0.5 * self._dt, add(self.w_WS_W, cue.w_WS_W)))
 
     def _demand(self, cue: Cue, to_go: Vec3, angle: float) -> tuple[Vec3, Vec3]:
-        """Wheel speeds and accelerations asked for at the end of the tick.
+        """Give the wheel speeds and accelerations asked for at the end of the tick.
 
         The cue's acceleration is its last difference.
         """
@@ -137,7 +137,10 @@ class SphereSmoothing:
         )
 
     def _spare(self, wheels: Vec3, direction: Vec3) -> float:
-        """Largest closing rate (rad/s) that keeps each wheel, busy with the cue already, inside its speed."""
+        """Give the largest closing rate (rad/s) that keeps each wheel inside its speed.
+
+        wheels: speeds (rad/s) that the cue takes already; direction: of the closing, per rad/s.
+        """
         spare = inf
         for axis, busy, d in zip(self._axes, wheels, direction, strict=True):
             if d > 0.0:
@@ -147,9 +150,9 @@ class SphereSmoothing:
         return max(spare, 0.0)
 
     def _fly(self, x: Step, y: Step, z: Step) -> None:
-        """Take the steps of the three wheels and integrate the orientation from them (Eq. 16, 19, 20).
+        """Take the steps of the three wheels and integrate the orientation (Eq. 16, 19, 20).
 
-        The one place where the orientation is renormalised.
+        This is the one place where the orientation is renormalised.
         """
         turn = apply(self._sphere_from_wheels, (x.displacement, y.displacement, z.displacement))
         self._speed, self._acceleration = (x.v, y.v, z.v), (x.a, y.a, z.a)
@@ -158,6 +161,9 @@ class SphereSmoothing:
         self.q_WS = normalise(integrate_base(self.q_WS, turn, w0, self.w_WS_W, self._dt))
 
     def _reserve(self, limit: Vec3) -> float:
-        """What the wheels' limits leave of angular acceleration or jerk about any axis, to plan a catch-up with."""
+        """Give the angular acceleration or jerk about any axis to plan a catch-up with.
+
+        It is what the wheels' limits leave.
+        """
         rows = (norm(row) for row in self._wheels_from_sphere)
         return _BRAKING_SHARE * min(each / row for each, row in zip(limit, rows, strict=True))

@@ -57,7 +57,7 @@ class RailAxis:
         self.p = min(max(p, -self.travel), self.travel) if isfinite(p) else 0.0
 
     def step(self, p: float, v: float, a: float) -> bool:
-        """Follow a cue for one tick; whether it was given. Any input is safe."""
+        """Follow a cue for one tick; return whether it was given. Any input is safe."""
         to_go = p - (self.p + 0.5 * self._axis.dt * (self.v + v))
         try:
             v_target, a_target = self._demand(to_go, v, a)
@@ -70,7 +70,7 @@ class RailAxis:
         return step.met and abs(to_go) <= _MET_DISTANCE
 
     def _demand(self, to_go: float, v: float, a: float) -> tuple[float, float]:
-        """Speed and acceleration asked for at the end of the tick."""
+        """Give speed and acceleration asked for at the end of the tick."""
         if not -inf < to_go + v + a < inf:
             return 0.0, 0.0
         closing, slope = approach(abs(to_go), _GAIN, self._braking, self._braking_jerk)
@@ -98,7 +98,7 @@ class RailAxis:
 
 
 class StageSmoothing:
-    """Position, velocity and acceleration of the stage (W), one tick at a time, inside its limits."""
+    """Position, velocity and acceleration of the stage (W) tick by tick, inside its limits."""
 
     def __init__(self, dt: float, limits: StageLimits) -> None:
         """Start at rest in the centre; dt in s."""
@@ -111,7 +111,7 @@ class StageSmoothing:
             axis.start(p)
 
     def step(self, cue: Cue) -> bool:
-        """Follow the cue for one tick; whether all of it was given. Any cue is safe."""
+        """Follow the cue for one tick; return whether all of it was given. Any cue is safe."""
         axes, p, v, a = self._axes, cue.p_WS_W, cue.v_WS_W, cue.a_WS_W
         met_x = axes[0].step(p[0], v[0], a[0])
         met_y = axes[1].step(p[1], v[1], a[1])

@@ -33,7 +33,7 @@ class Stop:
 
     @classmethod
     def plan(cls, v: float, a: float, a_max: float, j_max: float) -> "Stop":
-        """Stop from speed v and acceleration a, |a| <= a_max, with jerk at most j_max."""
+        """Plan the stop from speed v and acceleration a, |a| <= a_max, with jerk at most j_max."""
         s = 1.0 if v + a * abs(a) / (2.0 * j_max) >= 0.0 else -1.0
         v_s, a_s = s * v, s * a  # mirrored, so that the stop brakes downwards
         peak = min(a_max, sqrt(max(j_max * v_s + 0.5 * a_s * a_s, 0.0)))
@@ -84,22 +84,23 @@ class Stop:
 
 
 def stop_bound(v: float, a: float, a_max: float, j_max: float) -> float:
-    """No stop from (v, a) spans more than this to either side: a cheap bound that settles most certificates.
+    """Give a distance that no stop from (v, a) exceeds to either side.
 
-    Bringing a to zero takes |a| / J at no more than u = |v| + a^2 / 2J; from a = 0 a stop takes u sqrt(u / J) or
-    u/2 (u / A + A / J), and the latter is never less.
+    It is a cheap bound that settles most certificates. Bringing a to zero takes |a| / J at no more
+    than u = |v| + a^2 / 2J; from a = 0 a stop takes u sqrt(u / J) or u/2 (u / A + A / J), and the
+    latter is never less.
     """
     u = abs(v) + a * a / (2.0 * j_max)
     return u * (abs(a) / j_max + 0.5 * (u / a_max + a_max / j_max))
 
 
 def approach(distance: float, gain: float, a_max: float, j_max: float) -> tuple[float, float]:
-    """Speed at which to close a distance d >= 0 so as to stop at its end, and the slope of that speed over d, 1/s.
+    """Give the speed at which to close a distance d >= 0 so as to stop at its end, and its slope.
 
-    The least of three, so that no deceleration (speed times slope) goes beyond a_max: gain d; from
-    d = A / gain^2 on, with the same slope there, sqrt(2 A (d - A / 2 gain^2)); and the speed from
-    which the jerk-limited stop from a = 0 takes d, d = v sqrt(v / J) below v = A^2 / J and d = v/2
-    (v / A + A / J) above.
+    The slope is over d, 1/s. The speed is the least of three, so that no deceleration (speed times
+    slope) goes beyond a_max: gain d; from d = A / gain^2 on, with the same slope there,
+    sqrt(2 A (d - A / 2 gain^2)); and the speed from which the jerk-limited stop from a = 0 takes d,
+    d = v sqrt(v / J) below v = A^2 / J and d = v/2 (v / A + A / J) above.
     """
     if distance * gain * gain <= a_max and distance * gain * gain * gain <= j_max:
         return gain * max(distance, 0.0), gain
@@ -123,5 +124,5 @@ def _by_jerk(distance: float, a_max: float, j_max: float) -> tuple[float, float]
 
 
 def _coast(p: float, v: float, a: float, jerk: float, t: float) -> tuple[float, float, float]:
-    """State after t seconds of constant jerk."""
+    """Give displacement, speed and acceleration after t seconds of constant jerk."""
     return p + t * (v + t * (0.5 * a + t * jerk / 6.0)), v + t * (a + 0.5 * t * jerk), a + t * jerk

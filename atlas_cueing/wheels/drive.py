@@ -2,7 +2,7 @@
 
 # mypyc: runs every tick
 
-from ..rotation import Mat3, Vec3, apply, dot
+from ..rotation import Mat3, apply
 from ..signals import Motion, WheelSpeeds
 from .geometry import Geometry
 
@@ -18,7 +18,7 @@ class Wheels:
         self.wheels_from_sphere: Mat3 = geometry.wheels_from_sphere
 
     def speeds(self, motion: Motion) -> WheelSpeeds:
-        """Speed (Eq. 22) and acceleration (Eq. 19, inverted) of each wheel.
+        """Give speed (Eq. 22) and acceleration (Eq. 19, inverted) of each wheel.
 
         J is constant, so the same map serves both.
         """
@@ -26,12 +26,3 @@ class Wheels:
         return WheelSpeeds(
             motion.time, apply(inverse, motion.w_WS_W), apply(inverse, motion.alpha_WS_W)
         )
-
-    def torques(self, moment_W: Vec3) -> Vec3:
-        """Torque (N m) of each wheel that puts `moment_W` (N m, W) on the sphere at rest, without friction: J^T M.
-
-        It is the dual of Omega = J omega: both do the same work, M . Omega = tau . omega, for every
-        omega.
-        """
-        first, second, third = zip(*self.sphere_from_wheels, strict=True)
-        return (dot(first, moment_W), dot(second, moment_W), dot(third, moment_W))

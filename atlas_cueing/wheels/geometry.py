@@ -26,7 +26,11 @@ LARGEST_CONDITION_NUMBER = 1e6
 
 @dataclass(frozen=True, slots=True)
 class OmniWheel:
-    """One wheel: `contact` from the sphere centre and `drive` tangent to the sphere (unit vectors, W), `radius` in m."""
+    """One wheel.
+
+    contact: unit vector from the sphere centre, W; drive: unit vector tangent to the sphere, W;
+    radius in m.
+    """
 
     contact: Vec3
     drive: Vec3
@@ -86,7 +90,7 @@ class Geometry:
 
     @property
     def slip_free(self) -> bool:
-        """True when the kinematic slip condition holds: the induced rows are independent (section 3.1)."""
+        """Whether the kinematic slip condition holds: independent induced rows (section 3.1)."""
         return self.condition_number <= LARGEST_CONDITION_NUMBER
 
     @property

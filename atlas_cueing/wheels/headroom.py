@@ -11,7 +11,7 @@ from .geometry import Geometry
 class Headroom:
     """Largest sphere rate (rad/s) and acceleration (rad/s^2).
 
-    About x, y, z of W alone, and about whatever axis is worst.
+    About x, y, z of W alone, and about the worst axis of all.
     """
 
     rate: Vec3
@@ -21,7 +21,7 @@ class Headroom:
 
 
 def headroom(geometry: Geometry, limits: WheelLimits) -> Headroom:
-    """What `limits` leave of the sphere's motion; infinite about an axis that turns no wheel."""
+    """Give what `limits` leave of the sphere's motion; infinite where an axis turns no wheel."""
     rows = geometry.wheels_from_sphere
     return Headroom(
         rate=_about_axes(rows, limits.speed),

@@ -61,7 +61,7 @@ def test_heading_is_removed_at_the_start_and_nothing_else(heading: float) -> Non
 
 
 def test_body_rates_are_turned_into_the_base_frame() -> None:
-    """Upside down, a yaw to the right of the body is a turn to the left seen from W, that is about +z."""
+    """Upside down, a yaw to the right is a turn to the left in W, about +z."""
     vehicle = VehicleState(0.0, from_euler(0.0, 0.0, pi), (0.1, 0.0, 0.4), (0.0, 0.0, 9.8))
     _, w = AttitudeRotation(0.01, AttitudeParameters()).step(vehicle)
     assert w == pytest.approx((0.1, 0.0, 0.4), abs=1e-12)
@@ -176,7 +176,7 @@ def test_a_vehicle_at_rest_in_any_attitude_is_felt_as_pinned(
 
 @pytest.mark.parametrize("late", [0.0, 0.5])
 def test_rates_half_a_tick_off_the_attitude_leave_half_a_tick_of_turn(late: float) -> None:
-    """JSBSim's attitude lags its rates: in a roll that starts and stops the error is dt/2 |w| at most, and goes."""
+    """JSBSim's attitude lags its rates: the error of a roll is dt/2 |w| at most, and goes."""
     dt, method, worst, q = (
         1.0 / 120.0,
         AttitudeRotation(1.0 / 120.0, AttitudeParameters()),

@@ -1,4 +1,4 @@
-"""Method `blend`: body rates at once, the force's direction before long, and nothing returns to neutral."""
+"""Method `blend`: body rates at once, the force's direction soon, no return to neutral."""
 
 import json
 from math import e, pi, radians, sin
@@ -90,7 +90,7 @@ def test_the_pinned_level_turns(row: dict[str, float]) -> None:
 
 
 def test_a_turn_too_fast_is_undone_at_the_limit_and_no_more() -> None:
-    """60 deg at 100 m/s pitches with 8.4 deg/s: the cabin makes what is left of it, 5.4 deg/s, and says so."""
+    """A turn with 60 deg at 100 m/s pitches with 8.4 deg/s; the cabin makes 5.4 of it."""
     dt, method = 1.0 / 60.0, make(1.0 / 60.0)
     for vehicle in level_turn(radians(60.0), 100.0, dt, 120):
         q_WS, w = method.step(vehicle)
@@ -103,7 +103,7 @@ def test_a_turn_too_fast_is_undone_at_the_limit_and_no_more() -> None:
 
 @pytest.mark.parametrize("rate", [1.0, 3.0, 6.0])
 def test_a_fast_roll_passes_one_to_one_but_for_three_degrees_a_second(rate: float) -> None:
-    """With the force along the seat all the while, so that everything in the slow turn speaks against it."""
+    """With the force along the seat, so that all in the slow turn is against it."""
     dt, method = 1.0 / 240.0, make(1.0 / 240.0)
     for i in range(480):
         roll = rate * sin(2.0 * pi * i * dt)
@@ -154,7 +154,7 @@ def test_a_turning_force_is_gone_along_with() -> None:
 
 
 def test_orthogonal_and_reversed_forces_along_every_axis_are_turned_to() -> None:
-    """From standing on the tail, on the nose, on either side and on the head: there is no direction that it never reaches."""
+    """From tail, nose, either side and head: it reaches every direction."""
     dt = 1.0 / 20.0
     for start in OPPOSED:
         method = make(dt)

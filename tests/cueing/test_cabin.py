@@ -104,7 +104,10 @@ def test_an_error_is_taken_back_in_its_time_without_overshoot() -> None:
 
 
 def test_turning_and_slow_turning_at_once_are_one_motion() -> None:
-    """Halving dt quarters what lies between the orientation and the integral of the rate: the two turns do not commute."""
+    """Halving dt quarters the gap from the integral of the rate.
+
+    The two turns do not commute.
+    """
     gaps = []
     for n in (200, 400):
         dt = 8.0 / n

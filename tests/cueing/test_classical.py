@@ -1,11 +1,13 @@
-"""Method `classical` against Reid & Nahon's transfer functions, simulated by scipy, and against the limits it states."""
+"""Method `classical` against Reid & Nahon's transfer functions and its limits.
+
+The former are simulated by scipy.
+"""
 
 from collections.abc import Callable
 from math import asin, inf, pi, radians, sin, tanh
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy.signal import lsim, lti
 from scipy.spatial.transform import Rotation
 
@@ -23,11 +25,11 @@ from atlas_cueing.rotation import (
     rotate,
     to_euler,
 )
+from atlas_cueing.rotations import Array
 from atlas_cueing.signals import STANDARD_GRAVITY, StageLimits, VehicleState
 
 from .vehicles import LEVEL, manoeuvring
 
-Array = NDArray[np.float64]
 Input = Callable[[float], Vec3]
 Ride = tuple[Array, Array, Array]
 
@@ -52,7 +54,7 @@ def response(system: lti, signal: Array, t: Array) -> Array:
 def ride(
     parameters: ClassicalParameters, rates: Input, forces: Input, seconds: float, dt: float = DT
 ) -> Ride:
-    """Time, angles (roll, pitch, yaw) and w_WS_W of a vehicle whose rates and forces are given over time."""
+    """Time, angles (roll, pitch, yaw) and w_WS_W for rates and forces over time."""
     method, t, angles, w = (
         ClassicalRotation(dt, parameters),
         dt * np.arange(int(seconds / dt)),
@@ -106,7 +108,7 @@ def test_each_rotation_channel_is_its_transfer_function(
 def test_each_tilt_channel_is_its_transfer_function(
     axis: int, force: int, angle: int, sign: float
 ) -> None:
-    """0.6 f behind 4 / (s + 2)^2 becomes the angle whose sine it is of gravity, while below 3 deg/s."""
+    """The sine of the angle is 0.6 f behind 4 / (s + 2)^2 over g, below 3 deg/s."""
 
     def push(t: float) -> Vec3:
         f = [0.0, 0.0, -G]
@@ -122,7 +124,7 @@ def test_each_tilt_channel_is_its_transfer_function(
 
 
 def test_all_channels_together_are_the_sum_for_small_angles() -> None:
-    """A different frequency on each input, amplitudes of a thousandth: what is left is of second order."""
+    """A frequency on each input, a thousandth in size: the rest is of second order."""
     k = 1e-3
     t, angles, _ = ride(
         FREE,
@@ -294,7 +296,10 @@ def test_the_limit_is_a_hyperbolic_tangent_and_a_million_degrees_are_none() -> N
 
 @pytest.mark.parametrize("limit", [radians(25.0), inf])
 def test_the_rate_is_that_of_the_orientation(limit: float) -> None:
-    """Finite differences of q_WS, in the base frame, in a flight on all axes whose forces the tilt's rate can follow."""
+    """Finite differences of q_WS in the base frame, in a flight on all axes.
+
+    The tilt's rate can follow its forces.
+    """
     gaps = []
     for dt in (1.0 / 100.0, 1.0 / 400.0):
         method = ClassicalRotation(dt, ClassicalParameters(angle_limit=limit))

@@ -11,13 +11,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
+from atlas_cueing.cueing import METHODS as DECLARED
 from atlas_cueing.cueing import (
     AttitudeParameters,
     BlendParameters,
     ClassicalParameters,
     Cueing,
     ForceParameters,
-    MethodParameters,
+    PlanParameters,
+    RotationParameters,
     SlowTurnParameters,
     StageParameters,
     build_cueing,
@@ -28,25 +30,25 @@ from atlas_cueing.signals import Cue, StageLimits, VehicleState
 from .vehicles import LEVEL, manoeuvring, standing, wild
 
 LIMITS = StageLimits((1.0, 1.0, 0.75), (1.5, 1.5, 1.2), (6.0, 6.0, 5.0), (60.0, 60.0, 50.0))
-METHODS: list[MethodParameters] = [
-    AttitudeParameters(),
-    BlendParameters(),
-    ForceParameters(),
-    ClassicalParameters(),
+METHODS = [
+    defaults
+    for method in DECLARED.values()
+    if not isinstance(defaults := method.defaults, PlanParameters)
 ]
+FOUR = (AttitudeParameters(), BlendParameters(), ForceParameters(), ClassicalParameters())
 NO_LIMIT = ClassicalParameters(angle_limit=inf)
 Sequence = list[tuple[Quat, Vec3, Vec3]]
 
 
-def name(method: MethodParameters) -> str:
+def name(method: RotationParameters) -> str:
     return type(method).__name__.removesuffix("Parameters").lower()
 
 
-def make(method: MethodParameters, dt: float) -> Cueing:
+def make(method: RotationParameters, dt: float) -> Cueing:
     return build_cueing(method, StageParameters(), LIMITS, (0.1, 0.0, 0.6), dt)
 
 
-def ask(method: MethodParameters, sequence: Sequence, dt: float) -> list[Cue]:
+def ask(method: RotationParameters, sequence: Sequence, dt: float) -> list[Cue]:
     """Each state held for two ticks, so that both jumps and standing are in it."""
     cueing = make(method, dt)
     states = [state for state in sequence for _ in range(2)]
@@ -68,7 +70,7 @@ def check(cue: Cue) -> None:
 @pytest.mark.parametrize("method", [*METHODS, NO_LIMIT], ids=name)
 @given(sequence=wild(490.0, 50.0), dt=st.sampled_from([1e-3, 1.0 / 120.0]))
 def test_any_believable_states_give_a_cue_whose_sign_does_not_jump(
-    method: MethodParameters, sequence: Sequence, dt: float
+    method: RotationParameters, sequence: Sequence, dt: float
 ) -> None:
     """50 g and 50 rad/s, and an attitude that has nothing to do with either."""
     cues = ask(method, sequence, dt)
@@ -80,14 +82,14 @@ def test_any_believable_states_give_a_cue_whose_sign_does_not_jump(
 
 @pytest.mark.parametrize("method", [*METHODS, NO_LIMIT], ids=name)
 @given(sequence=wild(1e30, 1e30))
-def test_absurd_states_give_a_finite_cue(method: MethodParameters, sequence: Sequence) -> None:
+def test_absurd_states_give_a_finite_cue(method: RotationParameters, sequence: Sequence) -> None:
     for cue in ask(method, sequence, 0.01):
         check(cue)
 
 
 @pytest.mark.parametrize("method", METHODS, ids=name)
 @pytest.mark.parametrize("huge", [1e160, 1e308])
-def test_any_finite_force_gives_a_finite_cue(method: MethodParameters, huge: float) -> None:
+def test_any_finite_force_gives_a_finite_cue(method: RotationParameters, huge: float) -> None:
     """A recorded log may hold anything that is a number."""
     for f_B in ((huge, 0.0, 0.0), (huge, -huge, huge), (0.0, 0.0, huge)):
         for cue in ask(
@@ -96,8 +98,8 @@ def test_any_finite_force_gives_a_finite_cue(method: MethodParameters, huge: flo
             check(cue)
 
 
-def turned_away(method: MethodParameters, dt: float, push: float = 1.0) -> float:
-    """Largest angle in ten seconds between the orientation and the integral of the rate, by the trapezoid in W."""
+def turned_away(method: RotationParameters, dt: float, push: float = 1.0) -> float:
+    """Largest angle in ten seconds from the integral of the rate, by the trapezoid in W."""
     cueing = build_cueing(method, StageParameters(), LIMITS, ZERO, dt)
     cues = [cueing.step(vehicle) for vehicle in manoeuvring(dt, 10.0, push)]
     q, worst = Rotation.from_quat(np.roll(cues[0].q_WS, -1)), 0.0
@@ -111,9 +113,9 @@ def turned_away(method: MethodParameters, dt: float, push: float = 1.0) -> float
     return worst
 
 
-@pytest.mark.parametrize("method", [*METHODS[:3], ClassicalParameters(tilt_gain=ZERO)], ids=name)
+@pytest.mark.parametrize("method", [*FOUR[:3], ClassicalParameters(tilt_gain=ZERO)], ids=name)
 def test_the_orientation_is_the_integral_of_the_rate_to_second_order(
-    method: MethodParameters,
+    method: RotationParameters,
 ) -> None:
     """Half the tick, a quarter of the difference.
 
@@ -125,7 +127,10 @@ def test_the_orientation_is_the_integral_of_the_rate_to_second_order(
 
 
 def test_a_tilt_whose_rate_jumps_is_the_integral_of_the_rate_to_first_order() -> None:
-    """`classical` limits the rate of its tilt and not the acceleration: each jump of 3 deg/s is off by half a tick of it."""
+    """`classical` limits its tilt's rate, not the acceleration.
+
+    Each jump of 3 deg/s is off by half a tick of it.
+    """
     assert (
         turned_away(ClassicalParameters(rotation_gain=ZERO), 1.0 / 100.0, 3.0)
         < 0.5 * 0.01 * 2.0 * radians(3.0) * 2.0
@@ -135,7 +140,7 @@ def test_a_tilt_whose_rate_jumps_is_the_integral_of_the_rate_to_first_order() ->
 @pytest.mark.parametrize("method", METHODS, ids=name)
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_both_signs_of_the_vehicle_s_quaternion_are_one_attitude(
-    method: MethodParameters, sign: float
+    method: RotationParameters, sign: float
 ) -> None:
     """Also where the sign changes in mid-flight."""
     plain, flipping = make(method, 0.02), make(method, 0.02)
@@ -150,7 +155,7 @@ def test_both_signs_of_the_vehicle_s_quaternion_are_one_attitude(
 
 
 @pytest.mark.parametrize("method", METHODS, ids=name)
-def test_a_vehicle_at_rest_asks_for_nothing(method: MethodParameters) -> None:
+def test_a_vehicle_at_rest_asks_for_nothing(method: RotationParameters) -> None:
     cueing = build_cueing(method, StageParameters(), LIMITS, ZERO, 0.01)
     for vehicle in standing(from_euler(1.0, 0.0, 0.0), LEVEL, 0.01, 200, since=3.0):
         cue = cueing.step(vehicle)
@@ -163,7 +168,7 @@ def test_the_methods_differ_where_they_should() -> None:
     """Banked with the force along the seat: `attitude` banks, the others stand upright."""
     banked = VehicleState(0.0, exp((0.5, 0.0, 0.0)), ZERO, (0.0, 0.0, -11.0))
     turned = [
-        build_cueing(m, StageParameters(), LIMITS, ZERO, 0.01).step(banked).q_WS for m in METHODS
+        build_cueing(m, StageParameters(), LIMITS, ZERO, 0.01).step(banked).q_WS for m in FOUR
     ]
     assert turned[0] == pytest.approx(exp((0.5, 0.0, 0.0)))
     for q_WS in turned[1:]:
@@ -176,7 +181,7 @@ def test_they_turn_with_a_turn_as_they_should() -> None:
     All of it, all but the slow turn, nothing, and a washed-out part.
     """
     rolled = []
-    for method in METHODS:
+    for method in FOUR:
         cueing = build_cueing(method, StageParameters(), LIMITS, ZERO, 0.01)
         for i in range(101):
             cue = cueing.step(
@@ -194,7 +199,7 @@ def test_they_turn_with_a_turn_as_they_should() -> None:
 
 
 def test_the_stage_knows_where_the_head_is() -> None:
-    """Spinning up in place: a head off the axis is accelerated, which the vehicle's force does not ask for."""
+    """Spinning up in place accelerates a head off the axis, unlike the vehicle."""
     moved = []
     for head in (ZERO, (0.5, 0.0, 0.0)):
         cueing = build_cueing(AttitudeParameters(), StageParameters(), LIMITS, head, 0.01)

@@ -1,4 +1,4 @@
-"""Method `force`: the force's direction at any rate, free about it with the vehicle, smooth where there is none."""
+"""Method `force`: the force's direction at any rate, and with the vehicle about it."""
 
 import json
 from collections.abc import Callable, Iterator
@@ -69,7 +69,7 @@ def test_a_level_turn_of_any_bank_and_rate_is_felt_straight_down_the_seat(
 @pytest.mark.parametrize("omega", [0.05, 0.5, 2.0, 5.0])
 @pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.6, 0.8, 0.0)])
 def test_a_turning_force_is_followed_with_no_lag_but_the_filter_s(omega: float, axis: Vec3) -> None:
-    """For ever, at any rate: the lag of the filter is 2 atan(omega / bandwidth), and nothing is added to it."""
+    """The lag of the filter is 2 atan(omega / bandwidth), and nothing is added to it."""
     dt, b = 1.0 / 240.0, 2.0 * pi
     method, late = make(dt), []
     for vehicle in pushed(lambda t: rotate(exp(scale(omega * t, axis)), LEVEL), dt, 8.0):
@@ -134,7 +134,7 @@ def steady(axis: Vec3) -> ForceAt:
 
 
 def nearly(axis: Vec3) -> ForceAt:
-    """As `steady`, but past zero at a distance of 2 m/s^2, where the presence of the force is a third."""
+    """As `steady`, but past zero at 2 m/s^2, where the force is faded in by a third."""
     across = np.cross(axis, (0.36, 0.48, 0.8))
     aside = tuple((2.0 * across / np.linalg.norm(across)).tolist())
     return lambda t: tuple(
@@ -168,7 +168,7 @@ AXES: list[Vec3] = [
 def test_reversal_and_weightlessness_are_smooth_and_end_on_the_force(
     path: Callable[[Vec3], ForceAt], axis: Vec3
 ) -> None:
-    """The acceleration is finite: a finer tick does not make it larger, as it would a jump of the rate."""
+    """The acceleration is finite: a finer tick does not make it larger."""
     most, turn = [], []
     for dt in (1.0 / 200.0, 1.0 / 800.0):
         method = make(dt)

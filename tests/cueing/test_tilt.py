@@ -73,7 +73,10 @@ def test_misalignment_turns_up_to_the_force_by_the_shortest_way(turn: Vec3, f_S:
 @pytest.mark.parametrize("up_S", OPPOSED, ids=str)
 @pytest.mark.parametrize("off", [0.0, 1e-12, 1e-7])
 def test_a_force_straight_against_up_is_turned_to_as_well(up_S: Vec3, off: float) -> None:
-    """Half a turn brings up to the force, about an axis that lies across it: about the force itself nothing would change."""
+    """Half a turn brings up to the force, about an axis across it.
+
+    About the force itself nothing would change.
+    """
     q_WS = conjugate(
         exp(scale(angle_between((0.0, 0.0, 1.0), up_S), _across((0.0, 0.0, 1.0), up_S)))
     )
@@ -151,7 +154,7 @@ def test_the_rate_that_carries_is_the_vehicle_s_near_zero_force() -> None:
 
 @pytest.mark.parametrize("omega", [0.5, 3.0, 8.0])
 def test_a_force_that_turns_is_followed_with_the_filter_s_own_lag(omega: float) -> None:
-    """1 / (1 + i omega / b)^2 turns a rotating vector back by 2 atan(omega / b) and nothing else."""
+    """The filter 1 / (1 + i omega / b)^2 turns a vector back by 2 atan(omega / b) only."""
     dt, b = 1e-3, 2.0 * pi
     direction = ForceDirection(dt, b, HOLD, (0.0, 0.0, 10.0))
     for i in range(1, int(5.0 / dt)):

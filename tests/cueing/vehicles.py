@@ -25,7 +25,10 @@ def standing(q: Quat, f_B: Vec3, dt: float, n: int, since: float = 0.0) -> Itera
 
 
 def level_turn(bank: float, speed: float, dt: float, n: int) -> Iterator[VehicleState]:
-    """Level coordinated turn: p = 0, q = psi' sin(phi), r = psi' cos(phi), f = (0, 0, -g / cos(phi)), psi' = g tan(phi) / V."""
+    """A level coordinated turn with psi' = g tan(phi) / V.
+
+    p = 0, q = psi' sin(phi), r = psi' cos(phi), f = (0, 0, -g / cos(phi)).
+    """
     turn = STANDARD_GRAVITY * tan(bank) / speed
     w = (0.0, turn * sin(bank), turn * cos(bank))
     force = (0.0, 0.0, -STANDARD_GRAVITY / cos(bank))
@@ -34,7 +37,7 @@ def level_turn(bank: float, speed: float, dt: float, n: int) -> Iterator[Vehicle
 
 
 def manoeuvring(dt: float, seconds: float, push: float = 1.0) -> Iterator[VehicleState]:
-    """Smooth turning about all three Euler angles with the body rates that go with it, and a smooth force."""
+    """Smooth turning about all Euler angles, its body rates, and a smooth force."""
     for i in range(round(seconds / dt) + 1):
         t = i * dt
         psi, theta, phi = 0.5 + 0.3 * t + 0.2 * sin(0.9 * t), 0.5 * sin(0.7 * t), 0.9 * sin(1.3 * t)

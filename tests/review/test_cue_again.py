@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from live.logs import largest_file
 
+from atlas_cueing.cueing import CAUSAL_METHODS
 from atlas_cueing.errors import InputError, LogError, OutputError
 from atlas_cueing.recording import read_log
 from atlas_cueing.review import cue_again, review_log
-from atlas_cueing.scenario.cueing_table import METHODS, ForceTable
+from atlas_cueing.scenario.cueing_table import TABLES
 
 from .conftest import SCENARIOS, fly
 from .corrupting import corrupted
@@ -50,7 +51,7 @@ def test_another_method_and_platform(flight: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("old", ["blend", "classical"])
-@pytest.mark.parametrize("new", METHODS)
+@pytest.mark.parametrize("new", CAUSAL_METHODS)
 def test_another_method_comes_with_its_own_defaults(tmp_path: Path, old: str, new: str) -> None:
     """A log names every value; the old method's must not pass for wishes.
 
@@ -69,7 +70,7 @@ def test_what_was_set_for_the_old_method_stays_for_the_new_one(tmp_path: Path) -
         tmp_path, "duration_s=0.5", "cueing.align_rate_deg_s=2.0", "cueing.stage.bandwidth_hz=4.0"
     )
     cueing = cue_again(flown, ["cueing.method=force"], tmp_path / "new.mcap").file.cueing
-    assert isinstance(cueing, ForceTable)
+    assert isinstance(cueing, TABLES["force"])
     assert (cueing.align_rate_deg_s, cueing.align_time_s, cueing.stage.bandwidth_hz) == (
         2.0,
         0.5,

@@ -4,11 +4,11 @@ from pathlib import Path
 import pytest
 from scenario.texts import SCRIPT
 
+from atlas_cueing.cueing import CAUSAL_METHODS
 from atlas_cueing.errors import InputError, ScenarioError, SlipConditionError
 from atlas_cueing.rotation import IDENTITY, ZERO
 from atlas_cueing.run import build_pipeline, prepare
 from atlas_cueing.scenario import Scenario, load_scenario, presets
-from atlas_cueing.scenario.cueing_table import METHODS
 from atlas_cueing.signals import STANDARD_GRAVITY, VehicleState
 from atlas_cueing.vehicles import FlownAhead, RecordedVehicle
 
@@ -127,7 +127,7 @@ PUSHED = [
 def test_only_preview_needs_the_whole_flight(tmp_path: Path) -> None:
     assert loaded(tmp_path, "cueing.method=preview").needs_whole_flight
     assert not any(
-        loaded(tmp_path, f"cueing.method={method}").needs_whole_flight for method in METHODS
+        loaded(tmp_path, f"cueing.method={method}").needs_whole_flight for method in CAUSAL_METHODS
     )
 
 

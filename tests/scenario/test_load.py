@@ -7,6 +7,7 @@ import tomli_w
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from atlas_cueing.cueing import CAUSAL_METHODS, METHODS
 from atlas_cueing.errors import ScenarioError
 from atlas_cueing.rotation import Vec3
 from atlas_cueing.scenario import load_platform, load_scenario, presets
@@ -106,7 +107,7 @@ def test_another_method_leaves_the_files_own_keys_behind(tmp_path: Path) -> None
         load_scenario(path, ["cueing.method=attitude", "cueing.align_time_s=2"])
 
 
-@pytest.mark.parametrize("method", ["attitude", "blend", "classical", "force"])
+@pytest.mark.parametrize("method", CAUSAL_METHODS)
 def test_any_method_from_the_command_line(tmp_path: Path, method: str) -> None:
     """From a file of another method; the keys that both have stay, the others are left behind."""
     keys = "rotation_gain = 0.5\nalign_time_s = 3.0\n[cueing.stage]\nonset_rad_s = 2"
@@ -128,7 +129,7 @@ def test_a_wrong_key_is_not_left_behind(tmp_path: Path) -> None:
 
 
 def test_an_unknown_method_from_the_command_line(tmp_path: Path) -> None:
-    allowed = "attitude, blend, classical, force, preview"
+    allowed = ", ".join(sorted(METHODS))
     with pytest.raises(
         ScenarioError, match=rf"^--set: cueing\.method = 'hexapod': allowed: {allowed}$"
     ):

@@ -2,12 +2,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+from atlas_cueing.cueing import METHODS
 from atlas_cueing.scenario.mistakes import FileNamer, dotted, mistakes_of, nearest, shown
 from atlas_cueing.scenario.platform_file import Platform, presets
 from atlas_cueing.scenario.reading import read_toml
 
 from .conftest import Refused
 from .texts import AIRCRAFT
+
+KNOWN = ", ".join(sorted(METHODS))
 
 EVERYTHING_WRONG = """
 nam = "g"
@@ -70,11 +73,10 @@ def test_each_says_what_is_allowed(refused: Refused) -> None:
 def test_an_unknown_method_lists_the_known_ones(refused: Refused) -> None:
     text = AIRCRAFT.replace('"attitude"', '"atitude"')
     assert refused(text) == [
-        "bad.toml: cueing.method = 'atitude': did you mean 'attitude'? allowed: attitude, blend,"
-        " classical, force, preview"
+        "bad.toml: cueing.method = 'atitude': did you mean 'attitude'? allowed: " + KNOWN
     ]
     assert refused(AIRCRAFT.replace('"attitude"', "3")) == [
-        "bad.toml: cueing.method = 3: allowed: attitude, blend, classical, force, preview"
+        "bad.toml: cueing.method = 3: allowed: " + KNOWN
     ]
     assert refused(AIRCRAFT.split("[cueing]")[0].replace("name =", "cueing = 3\nname =")) == [
         "bad.toml: cueing = 3: allowed: a table"

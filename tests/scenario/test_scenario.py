@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from atlas_cueing.scenario import Scenario, load_platform, load_scenario, presets
-from atlas_cueing.scenario.cueing_table import METHODS
+from atlas_cueing.scenario.cueing_table import TABLES
 
 from .conftest import Refused
 from .texts import AIRCRAFT, INITIAL, SCRIPT, USER_SCRIPT
@@ -78,7 +78,7 @@ def test_a_script_named_as_an_own_one_stays_the_users(tmp_path: Path) -> None:
 
 def test_defaults_are_written_out(tmp_path: Path) -> None:
     text = loaded(tmp_path, SCRIPT).scenario_toml()
-    for key in METHODS["blend"].model_fields:
+    for key in TABLES["blend"].model_fields:
         assert f"{key} = " in text or f"[cueing.{key}]" in text
     assert "chunk_ticks = 512" in text
 

@@ -2,9 +2,9 @@ from pathlib import Path
 
 import pytest
 
+from atlas_cueing.cueing import CAUSAL_METHODS
 from atlas_cueing.errors import ScenarioError
 from atlas_cueing.scenario import Variant, load_scenario, load_variants, scenario_files
-from atlas_cueing.scenario.cueing_table import METHODS
 from atlas_cueing.vehicles import own_scripts
 
 from .texts import AIRCRAFT, SCRIPT
@@ -85,7 +85,7 @@ def test_patterns_are_names_known_here_and_now(tmp_path: Path) -> None:
         "atlas-2.9m",
     ]
     assert {run["cueing.method"] for run in settings(tmp_path, 'cueing.method = "*"')} == set(
-        METHODS
+        CAUSAL_METHODS
     )
     found = settings(tmp_path, 'vehicle.aircraft = "c172*"', text=AIRCRAFT)
     assert {run["vehicle.aircraft"] for run in found} == {"c172p", "c172r", "c172x"}

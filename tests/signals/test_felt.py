@@ -63,14 +63,17 @@ def test_stage_acceleration_is_felt_forward_right_and_down() -> None:
 
 
 def test_a_head_off_the_centre_feels_centripetal_and_tangential_acceleration() -> None:
-    """Sphere turning at 2 rad/s and 3 rad/s^2 about z, the head half a metre ahead of the centre."""
+    """A sphere at 2 rad/s and 3 rad/s^2 about z, the head half a metre ahead."""
     force, rate = felt(UPRIGHT, [[0.0, 0.0, 2.0]], [[0.0, 0.0, 3.0]], ZERO, [0.5, 0.0, 0.0])
     np.testing.assert_allclose(force, [[-4.0 * 0.5, -3.0 * 0.5, -STANDARD_GRAVITY]], atol=1e-12)
     np.testing.assert_allclose(rate, [[0.0, 0.0, -2.0]])
 
 
 def test_rates_are_those_of_the_cabin() -> None:
-    """Rolled right by 90 deg (cabin y points down), a turn to the left about the vertical is a turn nose down for the rider."""
+    """Rolled right by 90 deg, a turn to the left is a turn nose down for the rider.
+
+    Cabin y points down.
+    """
     q_WS = flip_rotation(from_euler(0.0, 0.0, radians(90.0)))
     np.testing.assert_allclose(
         felt([q_WS], [[0.0, 0.0, 1.0]], ZERO, ZERO, ZERO[0])[1], [[0.0, -1.0, 0.0]], atol=1e-15

@@ -1,19 +1,20 @@
-"""What happens between two ticks: every step is one of three known motions, which this file works out for itself."""
+"""What happens between two ticks: every step is one of three known motions.
+
+This file works them out for itself.
+"""
 
 import numpy as np
-from numpy.typing import NDArray
 from ruckig import ControlInterface, InputParameter, Ruckig, RuckigError, Trajectory
 
+from atlas_cueing.rotations import Array
 from atlas_cueing.smoothing import AxisSmoothing, Stop
 from atlas_cueing.smoothing.axis import Step
-
-Array = NDArray[np.float64]
 
 SUBSTEPS = 10
 
 
 class Recorder(AxisSmoothing):
-    """An Axis that keeps (displacement, v, a) at ten points inside the step it gave last, one row each."""
+    """An Axis that keeps (displacement, v, a) at ten points of its last step, in rows."""
 
     def __init__(self, dt: float, speed: float, acceleration: float, jerk: float) -> None:
         super().__init__(dt, speed, acceleration, jerk)

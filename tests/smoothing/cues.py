@@ -3,13 +3,12 @@
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from atlas_cueing.rotation import IDENTITY, ZERO
+from atlas_cueing.rotations import Array
 from atlas_cueing.signals import Cue
 
-Array = NDArray[np.float64]
 Random = np.random.Generator
 
 UPRIGHT = Cue(0.0, IDENTITY, ZERO, ZERO, ZERO, ZERO)
@@ -36,7 +35,10 @@ def sines(t: Array, amplitude: Array, omega: Array, phase: Array) -> tuple[Array
 def turning(
     t: Array, turns: Array, amplitude: Array, omega: Array, phase: Array
 ) -> tuple[Array, Array]:
-    """q_WS (scalar first) and w_WS_W of Rz(a) Ry(b) Rx(c), each angle a constant rate plus sines."""
+    """q_WS (scalar first) and w_WS_W of Rz(a) Ry(b) Rx(c).
+
+    Each angle is a constant rate plus sines.
+    """
     angle, rate, _ = sines(t, amplitude, omega, phase)
     angle, rate = angle + turns * t[:, None], rate + turns
     x, y, z = (Rotation.from_rotvec(angle[:, [i]] * np.eye(3)[i]) for i in range(3))

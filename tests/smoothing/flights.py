@@ -4,14 +4,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from atlas_cueing.rotations import Array
 from atlas_cueing.signals import Cue
 
 from .platforms import Platform
-
-Array = NDArray[np.float64]
 
 # Jerk-limited by J, x1 - x0 = dt (v0 + v1) / 2 - dt^2 (a1 - a0) / 12 up to J dt^3 times the
 # integral over u of |u^2/2 - u/2 + 1/12| (Euler-Maclaurin with Peano's kernel); v1 - v0 = dt (a0 +
@@ -61,7 +59,10 @@ def turned(q: Array) -> Array:
 
 
 def wheel_turns(platform: Platform, flight: Flight) -> Array:
-    """Angle of each wheel in each tick, from the orientation alone (Magnus' commutator taken off again)."""
+    """Angle of each wheel in each tick, from the orientation alone.
+
+    Magnus' commutator is taken off again.
+    """
     w = flight.w
     return (
         turned(flight.q) - flight.dt**2 / 12.0 * np.cross(w[1:], w[:-1])
@@ -69,7 +70,7 @@ def wheel_turns(platform: Platform, flight: Flight) -> Array:
 
 
 def use(platform: Platform, flight: Flight) -> dict[str, Array]:
-    """Largest share used of every limit, per wheel or axis, from the states and from finite differences."""
+    """Largest share used of every limit, from states and finite differences."""
     dt, to_wheels = flight.dt, platform.wheels_from_sphere.T
     wheels, stage = platform.wheels, platform.stage
     shares = {

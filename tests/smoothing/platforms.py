@@ -1,14 +1,12 @@
-"""Platforms to smooth on: the equilateral layout at 40 deg, the orthogonal one, one with every limit different."""
+"""Platforms to smooth on: equilateral at 40 deg, orthogonal, and every limit different."""
 
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from atlas_cueing.rotations import Array
 from atlas_cueing.signals import StageLimits, WheelLimits
 from atlas_cueing.smoothing import Smoothing
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -34,7 +32,10 @@ class Platform:
 
 
 def equilateral_rows(radius: float = 1.45, wheel: float = 0.15) -> Array:
-    """R / r times contact x drive (Eq. 11 and 22), three wheels 120 deg apart and 40 deg below the equator."""
+    """R / r times contact x drive (Eq. 11, 22): three wheels 120 deg apart.
+
+    They are 40 deg below the equator.
+    """
     low = np.radians(40.0)
     rows = []
     for azimuth in np.radians([0.0, 240.0, 120.0]):

@@ -1,4 +1,4 @@
-"""One axis: every trap of ruckig shut, targets within reach met exactly, limits kept whatever is asked."""
+"""One axis: ruckig's traps, targets within reach met exactly, limits always kept."""
 
 import re
 from collections.abc import Callable
@@ -186,7 +186,7 @@ def test_an_answer_that_no_jerk_inside_the_limits_leads_to_is_refused(
 
 @pytest.mark.parametrize(("v", "a"), [(0.0, ACCELERATION), (SPEED - 0.5 * 40.0**2 / JERK, 40.0)])
 def test_an_answer_beyond_the_limits_is_refused(v: float, a: float) -> None:
-    """From the edge: more acceleration than allowed, or a speed that can no longer be kept below its limit."""
+    """From the edge: too much acceleration, or a speed that cannot stay below its limit."""
     axis, more = make(), 0.1 * JERK * DT
     pretend(axis, {"p": v * DT, "v": v + (a + 0.5 * more) * DT, "a": a + more})
     with pytest.raises(PlanningError, match="outside the limits"):

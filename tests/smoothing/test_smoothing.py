@@ -1,4 +1,7 @@
-"""Whatever comes in: every limit holds by finite differences, everything is finite, |q| = 1, the sign of q is continuous."""
+"""For any input every limit holds by finite differences and all is finite.
+
+|q| = 1, and the sign of q is continuous.
+"""
 
 from dataclasses import fields
 
@@ -53,7 +56,10 @@ triples = st.tuples(positive, positive, positive)
 
 @st.composite
 def platforms(draw: st.DrawFn) -> Platform:
-    """Any limits, each wheel and axis its own: seconds to reach the speed and tenths to reach the acceleration, or not."""
+    """Any limits for each wheel and axis, whether or not they can be reached.
+
+    Seconds to reach the speed, tenths of a second to reach the acceleration, or not at all.
+    """
     wheels = np.array([draw(triples) for _ in range(3)]) * [[3.0], [5.0], [20.0]]
     stage = np.array([draw(triples) for _ in range(3)]) * [[1.0], [1.0], [5.0]]
     layout = draw(st.sampled_from(["equilateral", "orthogonal"]))

@@ -1,4 +1,4 @@
-"""Rotation in wheel space: it ends on the cue, by the shorter way, without overshoot and without chatter."""
+"""Rotation in wheel space: onto the cue the shorter way, without overshoot or chatter."""
 
 from itertools import pairwise
 
@@ -141,7 +141,10 @@ def test_a_bad_cue_stops_it_smoothly_and_a_good_one_starts_it_again(bad: str, dt
 
 @pytest.mark.parametrize("platform", PLATFORMS.values(), ids=PLATFORMS.keys())
 def test_the_orientation_is_the_integral_of_the_wheels(platform: Platform) -> None:
-    """Through J and Eq. 20, by scipy: ten seconds of anything end within rounding, for each tick's turn is exact in axis."""
+    """Ten seconds of any input end within rounding, through J and Eq. 20 by scipy.
+
+    Each tick's turn is exact in axis.
+    """
     dt = 1.0 / 500.0
     flight = fly(platform, dt, wild(dt, 5000, np.random.default_rng(9)))
     J = np.linalg.inv(platform.wheels_from_sphere)
@@ -174,7 +177,7 @@ def test_wheel_limits_hold_between_ticks(dt: float, monkeypatch: pytest.MonkeyPa
 
 
 def test_turning_for_hundreds_of_turns_loses_nothing() -> None:
-    """The quaternion stays a unit one, and on the cue, where an angle would have grown to 4500 rad."""
+    """The quaternion stays a unit one, where an angle would have grown to 4500 rad."""
     dt = 1.0 / 20.0
     t = dt * np.arange(30_000)
     spin = np.full((1, 3), 0.0)
@@ -191,7 +194,9 @@ def test_turning_for_hundreds_of_turns_loses_nothing() -> None:
 def test_a_small_error_decays_with_a_time_constant_of_a_quarter_second(
     platform: Platform, dt: float, within: float
 ) -> None:
-    """exp(-4 t) from the first tick on: speed and acceleration asked for are those of one motion, |e|'' = 4^2 |e|.
+    """The error is exp(-4 t) from the first tick on, |e|'' = 4^2 |e|.
+
+    Speed and acceleration asked for are those of one motion.
 
     With the acceleration the other way round, or left out, each tick would cover another way than
     the speed at its end tells.

@@ -109,7 +109,10 @@ def test_driven_at_the_rail_it_uses_the_travel_and_no_more(
 def test_a_cue_far_beyond_the_rail_ends_at_the_rail(
     dt: float, limit: tuple[float, ...], far: float
 ) -> None:
-    """The speed asked for on the way there is clipped before the room is looked at, or it would stop short of it, or creep."""
+    """The speed asked for on the way is clipped before the room is looked at.
+
+    Otherwise the stage would stop short of it, or creep.
+    """
     ticks = int((2.0 * limit[0] / limit[1] + 3.0 * limit[1] / limit[2] + 2.0) / dt)
     used = fly(dt, limit, ((far * limit[0], 0.0, 0.0) for _ in range(ticks)))
     assert used > (0.9 if dt < 0.01 else 0.8), used
@@ -117,7 +120,7 @@ def test_a_cue_far_beyond_the_rail_ends_at_the_rail(
 
 @pytest.mark.parametrize("dt", DTS)
 def test_every_state_has_a_certified_successor(dt: float) -> None:
-    """From whatever state random cues lead to, the stop alone stays inside, all the way to standstill."""
+    """From any state of random cues the stop alone stays inside, to standstill."""
     random = np.random.default_rng(8)
     axis = RailAxis(dt, 0.3, SPEED, ACCELERATION, JERK)
     for _ in range(600):

@@ -1,4 +1,4 @@
-"""The closed-form stop against pinned distances, a simulation of its phases, ruckig, and brute force."""
+"""The closed-form stop against pinned distances, simulation, ruckig and brute force."""
 
 import json
 from pathlib import Path
@@ -138,7 +138,10 @@ def test_span_holds_every_point_of_the_way_and_no_more(
 
 
 def test_span_of_a_stop_that_first_runs_backwards() -> None:
-    """v = -0.1 m/s with a = 3 m/s^2 turns round, and overshoots its start: neither end of the span is an end of the way."""
+    """With v = -0.1 m/s and a = 3 m/s^2 it turns round and overshoots its start.
+
+    Neither end of the span is an end of the way.
+    """
     stop = Stop.plan(-0.1, 3.0, 3.0, 10.0)
     low, high = stop.span()
     p = simulate(stop)[1]
@@ -151,7 +154,10 @@ def test_span_of_a_stop_that_first_runs_backwards() -> None:
 def test_the_rest_of_a_stop_is_the_stop_of_its_rest(
     v: float, k: float, a_max: float, j_max: float, when: float
 ) -> None:
-    """What keeps the stage inside its rails for ever: one tick along a certified stop is a certified state."""
+    """One tick along a certified stop is a certified state.
+
+    This keeps the stage inside its travel for ever.
+    """
     stop = Stop.plan(v, k * a_max, a_max, j_max)
     p, v1, a1 = stop.at(when * stop.duration)
     rest = Stop.plan(v1, min(max(a1, -a_max), a_max), a_max, j_max)
@@ -196,7 +202,7 @@ gains = st.floats(0.1, 1e3)
 def three_laws(
     distance: float, gain: float, a_max: float, j_max: float
 ) -> tuple[float, float, float]:
-    """Speeds by the gain, by the acceleration and by the jerk-limited stop, the last by bisection of `Stop`."""
+    """Speeds by the gain, by the acceleration and by bisection of the jerk-limited `Stop`."""
     corner = a_max / gain**2
     by_acceleration = (
         gain * distance if distance <= corner else np.sqrt(2.0 * a_max * (distance - 0.5 * corner))
@@ -244,7 +250,10 @@ def test_the_slope_of_the_approach_is_its_derivative(
 
 @given(gains, bound, jerk)
 def test_the_approach_has_no_jump_anywhere(gain: float, a_max: float, j_max: float) -> None:
-    """At the corners of its laws the speed is one, and where the gain meets the acceleration the slope is one too."""
+    """At the corners of its laws the speed is continuous.
+
+    Where the gain meets the acceleration the slope is, too.
+    """
     corners = [a_max / gain**2, j_max / gain**3, a_max**3 / j_max**2]
     for corner in corners:
         below, above = (approach(corner * k, gain, a_max, j_max) for k in (1.0 - 1e-9, 1.0 + 1e-9))

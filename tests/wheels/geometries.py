@@ -1,4 +1,4 @@
-"""Geometries for the tests: the pinned oracle, the paper's layout at any elevation, and any three wheels."""
+"""Geometries for the tests: the pinned oracle, the paper's layout, any three wheels."""
 
 import json
 from math import cos, sin, sqrt

@@ -1,11 +1,13 @@
-"""Wheel speeds of a motion: power balance, and finite differences of an orientation turned by the wheels alone."""
+"""Wheel speeds of a motion: back through the Jacobian, and by finite differences.
+
+The latter are of an orientation turned by the wheels alone.
+"""
 
 from math import cos, sin
 
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import strategies as st
 
 from atlas_cueing.errors import SlipConditionError
 from atlas_cueing.rotation import (
@@ -14,7 +16,6 @@ from atlas_cueing.rotation import (
     Vec3,
     apply,
     conjugate,
-    dot,
     integrate_base,
     log,
     multiply,
@@ -45,32 +46,11 @@ def test_speeds_bring_the_motion_back_through_the_jacobian(
     )
 
 
-@given(geometries(), vector, vector)
-def test_virtual_work(geometry: Geometry, moment_W: Vec3, w_W: Vec3) -> None:
-    """What the wheels put in, tau . omega, is what the sphere takes, M .
-
-    Omega, whatever the motion.
-    """
-    wheels = Wheels(geometry)
-    power = dot(wheels.torques(moment_W), wheels.speeds(motion(0.0, w_W, ZERO)).speed)
-    assert power == pytest.approx(dot(moment_W, w_W), rel=1e-7, abs=1e-9)
-
-
-@given(st.permutations([0, 1, 2]), vector)
-def test_torque_is_the_contact_force_at_the_wheel_radius(order: list[int], moment_W: Vec3) -> None:
-    """Third derivation: contact forces F_i = tau_i / r_i along the drives give the moment back, sum R x F = M."""
-    geometry = equilateral(0.7)
-    torques = Wheels(geometry).torques(moment_W)
-    moment = np.zeros(3)
-    for i in order:
-        wheel = geometry.wheels[i]
-        force = torques[i] / wheel.radius * np.array(wheel.drive)
-        moment += np.cross(geometry.sphere_radius * np.array(wheel.contact), force)
-    np.testing.assert_allclose(moment, moment_W, atol=1e-12)
-
-
 def test_finite_differences_of_the_orientation_turned_by_the_wheels() -> None:
-    """Wheel speeds -> J -> Eq. 20 integrated -> central difference of q gives the rate asked for, in the BASE frame."""
+    """Wheel speeds -> J -> Eq. 20 integrated -> central difference of q gives the rate.
+
+    It is in the BASE frame.
+    """
 
     def rate(t: float) -> Vec3:
         return (1.1 * cos(2.0 * t), 0.8 * sin(1.3 * t) + 0.2, -0.9 * cos(0.7 * t))

@@ -1,4 +1,4 @@
-"""The kinematics against the pinned oracle, closed forms of the paper and derivations done another way."""
+"""The kinematics against the oracle, the paper's closed forms and other derivations."""
 
 from math import asin, cos, degrees, radians, sin, sqrt, tan
 
@@ -73,7 +73,7 @@ def test_the_two_maps_are_inverse(geometry: Geometry) -> None:
 def test_contact_points_move_as_the_wheels_do(
     geometry: Geometry, w_W: tuple[float, float, float]
 ) -> None:
-    """Second derivation: the sphere's surface velocity Omega x R along the drive is the wheel's r omega (Eq. 4 and 9)."""
+    """The sphere's surface velocity Omega x R along the drive is r omega (Eq. 4 and 9)."""
     speeds = np.array(geometry.wheels_from_sphere) @ np.array(w_W)
     for wheel, speed in zip(geometry.wheels, speeds, strict=True):
         surface = cross(w_W, scale(geometry.sphere_radius, wheel.contact))

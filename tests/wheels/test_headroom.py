@@ -45,7 +45,10 @@ def test_the_worst_axis_is_the_worst(geometry: Geometry, direction: Vec3) -> Non
 
 
 def test_paper_geometry_by_hand() -> None:
-    """Section 4.2: rows are unit vectors, so the worst axis allows (r/R) w_max, and z sees only their cos(theta)."""
+    """Section 4.2: the worst axis allows (r/R) w_max, and z sees only cos(theta).
+
+    Rows are unit vectors.
+    """
     limits = WheelLimits((31.0,) * 3, (60.0,) * 3, (600.0,) * 3)
     room = headroom(equilateral(np.radians(40.0)), limits)
     assert room.worst_rate == pytest.approx(0.08 / 0.75 * 31.0)

@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from atlas_cueing.cueing import CAUSAL_METHODS
 from atlas_cueing.live.control.guard import Guard
 from atlas_cueing.live.control.platform_controller import command_of
 from atlas_cueing.run import build_pipeline
@@ -29,7 +30,6 @@ from .rows import Asked, Row
 from .timing import clock_cost, each, without_garbage
 from .whole_run import Bare
 
-METHODS = ("attitude", "blend", "force", "classical")
 BLOCK = 32  # ticks, as a run takes them through the pipeline
 ASKED = Asked(40.0)  # us a tick: blend, without vehicle and recording
 _CALLS = 2000  # of a peer, to time it
@@ -71,7 +71,8 @@ def measure(bench: Bench) -> Iterator[Row]:
     Calls of ruckig beside them.
     """
     scenarios = {
-        name: script_scenario(bench.folder, STAGED, bench.effort.flight, name) for name in METHODS
+        name: script_scenario(bench.folder, STAGED, bench.effort.flight, name)
+        for name in CAUSAL_METHODS
     }
     blend = scenarios["blend"]
     ticks = flown(blend)

@@ -1,14 +1,10 @@
-"""Method `preview`: the whole flight is known, so the whole motion of the platform is planned at once.
+"""Method `preview`: the whole flight is known, so the platform's whole motion is planned at once.
 
-For batch runs and recorded logs. It is the ceiling that methods which know only the past can be
-measured against: the same cost (`PreviewParameters`), the same limits, all of the future. Only this
-    package knows clarabel.
+For batch runs and recorded logs. It is the ceiling that causal methods can be measured against:
+the same cost (`PreviewParameters`), the same limits, all of the future. Only this package knows
+clarabel.
 """
 
-from .motion_plan import preview
-from .preview import Preview
+from .preview_parameters import METHOD, PreviewParameters
 
-__all__ = [
-    "Preview",
-    "preview",
-]
+__all__ = ["METHOD", "PreviewParameters"]

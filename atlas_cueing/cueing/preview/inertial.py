@@ -1,7 +1,7 @@
-"""The flight seen from A: axes that do not turn, and that lie along the cabin's own when the flight begins.
+"""The flight seen from A: axes that do not turn, the cabin's own as the flight begins.
 
 If the cabin turned with the vehicle's body rates and nothing else, it would stand in A as `q_AS`
-says. Whatever a method adds is a turn of A against W, at the rate it adds; so in A the vehicle's
+says. What a method adds is a turn of A against W, at the rate it adds; so in A the vehicle's
 turning drops out of the problem.
 """
 
@@ -13,9 +13,8 @@ import numpy as np
 
 from ...errors import InputError
 from ...rotation import IDENTITY, Quat, Vec3, add, flip, integrate_body, normalise, scale
+from ...rotations import Array, rotate
 from ...signals import VehicleState
-from .quaternions import rotated
-from .spline import Array
 
 # m/s^2 and rad/s; nothing that flies has more, and the arithmetic stays far from overflow
 _ABSURD = 1e6
@@ -23,7 +22,11 @@ _ABSURD = 1e6
 
 @dataclass(frozen=True, slots=True)
 class Inertial:
-    """Vehicle at each tick, in A: orientation q_AS (n, 4), body rates w_A (n, 3) rad/s, specific force f_A (n, 3) m/s^2."""
+    """The vehicle at each tick, in A.
+
+    time (n,), s; orientation q_AS (n, 4); body rates w_A (n, 3), rad/s; specific force f_A (n, 3),
+    m/s^2.
+    """
 
     time: Array
     q_AS: Array
@@ -48,13 +51,16 @@ def inertial(states: Sequence[VehicleState], dt: float) -> Inertial:
     return Inertial(
         time=np.array([state.time for state in states]),
         q_AS=q_AS,
-        w_A=rotated(q_AS, np.array(w_S)),
-        f_A=rotated(q_AS, np.array([flip(state.f_B) for state in states])),
+        w_A=rotate(q_AS, np.array(w_S)),
+        f_A=rotate(q_AS, np.array([flip(state.f_B) for state in states])),
     )
 
 
 def turned(q: Quat, rates: Sequence[Vec3], dt: float) -> list[Quat]:
-    """Orientations at each tick from the first one, q, and the rates (rad/s) in axes that turn along."""
+    """Integrate orientations, one for each tick.
+
+    q: the first one; rates: at each tick, rad/s, in axes that turn along; dt in s.
+    """
     orientations = [q]
     for before, now in pairwise(rates):
         turn = scale(0.5 * dt, add(before, now))

@@ -2,18 +2,18 @@
 
 With A held in W as the plan has it, the force that a rider feels, seen in A, is linear in W's up m
 and in the stage's acceleration a: g m + R_AW a. Its squared error and all bounds make one convex
-programme, in which m moves on the planes that touch the sphere at the plan's own course. The stage
+programme, in which m moves on the planes that touch the sphere at the plan's own path. The stage
 can then begin a push that the cabin is going to take over.
 """
 
 import numpy as np
 from scipy.sparse import block_diag, csc_array, diags_array, hstack, kron
 
+from ...rotations import Array, rotate_back
 from ...signals import STANDARD_GRAVITY, StageLimits
-from ..parameters import PreviewParameters
-from .quaternions import back
+from .preview_parameters import PreviewParameters
 from .solver import Bounds, minimise
-from .spline import Array, Spline
+from .spline import Spline
 from .stage_plan import acceleration, inside
 from .tilt_plan import slow, turning
 
@@ -26,11 +26,17 @@ def together(
     parameters: PreviewParameters,
     limits: StageLimits,
 ) -> tuple[Array, Array]:
-    """Control points of W's up in A and of the stage in W, each (points, 3).
+    """Plan W's up in A and the stage in W; gives control points of each, (points, 3).
 
-    up: the course so far, control points; q_WA (ticks, 4): A in W on that course; f_A (ticks, 3),
-    m/s^2: the specific force that gravity and the stage should give. Raises InputError when the
-    solver fails.
+    Args:
+        spline: the curve that the control points shape.
+        up: control points (points, 3) of W's up so far.
+        q_WA: A in W on that path, at each tick (ticks, 4).
+        f_A: the specific force that gravity and the stage should give (ticks, 3), m/s^2, in A.
+        parameters: of the method.
+        limits: of the stage.
+
+    Raises InputError when the solver fails.
     """
     n, each = spline.points, 3 * spline.points - 3
     total = 3 * n + 3 * each
@@ -48,7 +54,7 @@ def together(
 
 
 def _touching(up: Array) -> Bounds:
-    """Each control point on the plane across it through the one it was."""
+    """Bound each control point to the plane that touches the sphere where it was."""
     length = np.linalg.norm(up, axis=1)
     rows = np.repeat(np.arange(len(up)), 3)
     bounds = Bounds()
@@ -59,10 +65,10 @@ def _touching(up: Array) -> Bounds:
 
 
 def _felt(spline: Spline, q_WA: Array) -> csc_array:
-    """From all unknowns to the force (m/s^2, A) at the ticks, three rows each."""
+    """Give the matrix from all unknowns to the force (m/s^2, A) at the ticks, three rows each."""
     blocks = [kron(spline.value, STANDARD_GRAVITY * np.eye(3))]
     push = kron(acceleration(spline), np.ones((3, 1)))
     for axis in np.eye(3):
-        along_A = back(q_WA, np.broadcast_to(axis, (spline.ticks, 3)))
+        along_A = rotate_back(q_WA, np.broadcast_to(axis, (spline.ticks, 3)))
         blocks.append(diags_array(along_A.ravel()) @ push)
     return csc_array(hstack(blocks))

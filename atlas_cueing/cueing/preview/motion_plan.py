@@ -5,15 +5,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...rotation import Quat, Vec3, multiply, rotate, shortest_arc
+from ... import rotation
+from ...rotation import Quat, Vec3, multiply, shortest_arc
+from ...rotations import Array, cross, rotate, rotate_back
 from ...signals import STANDARD_GRAVITY, StageLimits, VehicleState
 from ..cabin import upright
-from ..parameters import PreviewParameters
 from .inertial import Inertial, inertial, turned
 from .joint_plan import together
-from .preview import Preview
-from .quaternions import back, product, rotated
-from .spline import Array, Spline
+from .planned_cues import PlannedCues
+from .preview_parameters import PreviewParameters
+from .spline import Spline
 from .stage_plan import rails
 from .tilt_plan import Up, UpPlanner, sampled
 
@@ -21,16 +22,16 @@ _UP: Vec3 = (0.0, 0.0, 1.0)
 _GRAVITY_W = np.array([0.0, 0.0, -STANDARD_GRAVITY])
 
 
-def preview(
+def plan_motion(
     states: Sequence[VehicleState],
     parameters: PreviewParameters,
     limits: StageLimits,
     head_S: Vec3,
     dt: float,
-) -> Preview:
+) -> PlannedCues:
     """Plan the platform's motion for all states of a flight, dt s apart.
 
-    Head_S: the rider's head from the centre, m, S.
+    head_S: the rider's head from the sphere's centre, m, in S.
 
     First the rotation for the whole force, at its global best, and the stage for what it leaves;
     then both at once from there, `rounds` times. The cheapest counts. Raises InputError when there
@@ -48,20 +49,21 @@ def preview(
             spline,
             up,
             course.q_WA,
-            problem.flight.f_A - back(course.q_WA, course.turning_W),
+            problem.flight.f_A - rotate_back(course.q_WA, course.turning_W),
             parameters,
             limits,
         )
         course = problem.course(up)
         plans.append(problem.plan(course, stage))
-    return min(plans, key=lambda plan: plan.cost).preview
+    return min(plans, key=lambda plan: plan.cost).cues
 
 
 @dataclass(frozen=True, slots=True)
 class _Course:
-    """The rotation at each tick: W's up in A, A in W, the cabin's rate.
+    """The rotation at each of n ticks.
 
-    The head's acceleration by turning, and missing.
+    up: W's up in A; q_WA (n, 4): A in W; w_W (n, 3): the cabin's rate, rad/s; turning_W (n, 3): the
+    acceleration of the head by turning, m/s^2; lacking_W (n, 3): what it still lacks.
     """
 
     up: Up
@@ -75,13 +77,16 @@ class _Course:
 class _Plan:
     """A whole plan and its mean cost."""
 
-    preview: Preview
+    cues: PlannedCues
     cost: float
 
 
 @dataclass(frozen=True, slots=True)
 class _Problem:
-    """What all rounds have in common; `start` is the cabin's attitude before its turn to the first force."""
+    """What all rounds have in common.
+
+    start: the cabin's attitude before its turn to the first force.
+    """
 
     spline: Spline
     flight: Inertial
@@ -91,17 +96,17 @@ class _Problem:
     dt: float
 
     def course(self, points: Array) -> _Course:
-        """The rotation that control points of W's up make."""
+        """Give the rotation that control points (points, 3) of W's up make."""
         up = sampled(self.spline, points)
         q_WA = self._orientations(up)
-        w_W = rotated(q_WA, self.flight.w_A + up.rate)
+        w_W = rotate(q_WA, self.flight.w_A + up.rate)
         turning_W = self._turning(q_WA, w_W)
         return _Course(
-            up, q_WA, w_W, turning_W, rotated(q_WA, self.flight.f_A) + _GRAVITY_W - turning_W
+            up, q_WA, w_W, turning_W, rotate(q_WA, self.flight.f_A) + _GRAVITY_W - turning_W
         )
 
     def plan(self, course: _Course, stage: Array) -> _Plan:
-        """The rotation with the stage of these control points."""
+        """Join the rotation and the stage of these control points (points, 3); gives the plan."""
         spline = self.spline
         p_W, v_W, a_W = (
             np.asarray(matrix @ stage) for matrix in (spline.value, spline.slope, spline.curvature)
@@ -111,20 +116,32 @@ class _Problem:
             np.sum(course.up.rate**2, axis=1),
         )
         cost = np.mean(force / self.parameters.force_unit**2 + rate / self.parameters.rate_unit**2)
-        q_WS = product(course.q_WA, self.flight.q_AS)
-        return _Plan(Preview(self.flight.time, q_WS, course.w_W, p_W, v_W, a_W), float(cost))
+        q_WS = _product(course.q_WA, self.flight.q_AS)
+        return _Plan(PlannedCues(self.flight.time, q_WS, course.w_W, p_W, v_W, a_W), float(cost))
 
     def _orientations(self, up: Up) -> Array:
-        """q_WA (n, 4): the first attitude turned the shortest way so that W's up is where it should be, and on from there."""
+        """Give q_WA (n, 4): the first attitude, turned to W's up, and on from there.
+
+        It is turned the shortest way.
+        """
         x, y, z = up.direction[0].tolist()
-        first = multiply(shortest_arc(rotate(self.start, (x, y, z)), _UP), self.start)
+        first = multiply(shortest_arc(rotation.rotate(self.start, (x, y, z)), _UP), self.start)
         return np.array(turned(first, [(a, b, c) for a, b, c in up.rate.tolist()], self.dt))
 
     def _turning(self, q_WA: Array, w_W: Array) -> Array:
         """Acceleration of the head (W) that the sphere's turning makes."""
         if not np.any(self.head_S) or len(w_W) < 2:
             return np.zeros_like(w_W)
-        r_W = rotated(product(q_WA, self.flight.q_AS), np.broadcast_to(self.head_S, w_W.shape))
+        r_W = rotate(_product(q_WA, self.flight.q_AS), np.broadcast_to(self.head_S, w_W.shape))
         return np.asarray(
-            np.cross(np.gradient(w_W, self.dt, axis=0), r_W) + np.cross(w_W, np.cross(w_W, r_W))
+            cross(np.gradient(w_W, self.dt, axis=0), r_W) + cross(w_W, cross(w_W, r_W))
         )
+
+
+def _product(p: Array, q: Array) -> Array:
+    """Hamilton products, row by row.
+
+    They are those of `rotations.multiply` but for the last bit, on which the plans depend.
+    """
+    w = p[:, :1] * q[:, :1] - np.sum(p[:, 1:] * q[:, 1:], axis=1, keepdims=True)
+    return np.hstack([w, p[:, :1] * q[:, 1:] + q[:, :1] * p[:, 1:] + cross(p[:, 1:], q[:, 1:])])

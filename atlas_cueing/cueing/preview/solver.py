@@ -12,13 +12,13 @@ import numpy as np
 from scipy.sparse import csc_array, csc_matrix, hstack, kron, triu, vstack
 
 from ...errors import InputError, MissingExtraError
-from .spline import Array
+from ...rotations import Array
 
 _SOLVED = ("Solved", "AlmostSolved")  # the latter to 5e-5 of the cost and 1e-4 of the bounds
 
 
 def clarabel() -> Any:
-    """The solver's module. Raises MissingExtraError when it is not installed."""
+    """Give the solver's module. Raises MissingExtraError when it is not installed."""
     try:
         import clarabel as module
     except ModuleNotFoundError as error:
@@ -35,22 +35,22 @@ class Bounds:
     cones: list[Any] = field(default_factory=list)
 
     def equal(self, matrix: csc_array, side: Array) -> None:
-        """Matrix x = side."""
+        """Demand matrix x = side."""
         self._add(matrix, side, [clarabel().ZeroConeT(matrix.shape[0])])
 
     def zero(self, matrix: csc_array) -> None:
-        """Matrix x = 0."""
+        """Demand matrix x = 0."""
         self.equal(matrix, np.zeros(matrix.shape[0]))
 
     def within(self, matrix: csc_array, bound: float) -> None:
-        """|matrix x| <= bound, row by row."""
+        """Demand |matrix x| <= bound, row by row."""
         scaled, n = matrix / bound, 2 * matrix.shape[0]
         self._add(
             csc_array(vstack([scaled, -scaled])), np.ones(n), [clarabel().NonnegativeConeT(n)]
         )
 
     def length(self, matrix: csc_array, bound: float) -> None:
-        """Length of each row's vector <= bound, where x are 3-vectors one after the other, to which the matrix is applied."""
+        """Bound the length of each vector that the matrix makes of the 3-vectors in x."""
         n = matrix.shape[0]
         rows = kron(matrix / bound, np.vstack([np.zeros(3), -np.eye(3)]))
         self._add(
@@ -58,7 +58,10 @@ class Bounds:
         )
 
     def among(self, before: int, total: int) -> "Bounds":
-        """The same bounds where x is part of a longer vector of `total` unknowns and begins after the first `before`."""
+        """Give the same bounds where x is part of a longer vector.
+
+        That has `total` unknowns, and x begins after the first `before` of them.
+        """
         padded = []
         for rows in self.rows:
             m, n = rows.shape
@@ -79,9 +82,9 @@ class Bounds:
 
 
 def minimise(quadratic: csc_array, linear: Array, bounds: Bounds) -> Array:
-    """The x that makes x.quadratic x / 2 + linear.x least within the bounds.
+    """Give the x that makes x.quadratic x / 2 + linear.x least within the bounds.
 
-    Raises InputError when there is no telling.
+    Raises InputError when the solver finds none.
     """
     module = clarabel()
     settings = module.DefaultSettings()

@@ -7,21 +7,23 @@ difference over a whole interval. So bounds on control points and differences ar
 curve at all times, and everything a plan needs is a sparse matrix of few diagonals.
 """
 
-from typing import TypeAlias
-
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csc_array, diags_array, eye_array
 
-Array: TypeAlias = NDArray[np.float64]
+from ...rotations import Array
+
 _WEIGHTS = 4  # control points that shape the curve at one time
 
 
 class Spline:
-    """A curve over `ticks` ticks of dt s with knots every `interval` s, a whole number of ticks, about 1 / rate_hz."""
+    """A curve over `ticks` ticks with knots every `interval` s, a whole number of ticks."""
 
     def __init__(self, ticks: int, dt: float, rate_hz: float) -> None:
-        """The first knot is the first tick, the last one the last tick or less than an interval after it."""
+        """Lay knots about 1 / rate_hz s apart over ticks of dt s.
+
+        The first knot is the first tick; the last one is the last tick, or less than an interval
+        after it.
+        """
         each = max(1, round(1.0 / (rate_hz * dt)))
         intervals = max(1, -(-(ticks - 1) // each))
         self.ticks, self.interval, self.points = ticks, each * dt, intervals + 3
@@ -40,14 +42,20 @@ class Spline:
         self.curvature = self._sampled(1 - s, 3 * s - 2, 1 - 3 * s, s) / self.interval**2
 
     def difference(self, order: int) -> csc_array:
-        """Divided differences of the control points, (points - order, points): bounds of the derivative of that order."""
+        """Give the matrix (points - order, points) to divided differences of the control points.
+
+        They bound the derivative of that order.
+        """
         matrix: csc_array = csc_array(eye_array(self.points))
         for n in range(self.points, self.points - order, -1):
             matrix = csc_array(steps(n) @ matrix / self.interval)
         return matrix
 
     def straight(self) -> csc_array:
-        """From the second differences (points - 2) to the second derivative at the ticks: straight lines between knots."""
+        """Give the matrix (ticks, points - 2) from second differences to the second derivative.
+
+        It runs straight between knots.
+        """
         s, rows = self._share, np.repeat(np.arange(self.ticks), 2)
         columns = (self._first[:, None] + np.arange(2)).ravel()
         return csc_array(
@@ -56,7 +64,7 @@ class Spline:
         )
 
     def _sampled(self, *weights: Array) -> csc_array:
-        """Matrix (ticks, points) with these weights of the four control points at each tick."""
+        """Give the matrix (ticks, points) with these weights of the four points at each tick."""
         rows = np.repeat(np.arange(self.ticks), _WEIGHTS)
         columns = (self._first[:, None] + np.arange(_WEIGHTS)).ravel()
         return csc_array(
@@ -65,5 +73,5 @@ class Spline:
 
 
 def steps(n: int) -> csc_array:
-    """From n numbers to their n - 1 differences."""
+    """Give the matrix (n - 1, n) from n numbers to their differences."""
     return csc_array(diags_array([-1.0, 1.0], offsets=[0, 1], shape=(n - 1, n)))

@@ -1,18 +1,20 @@
-"""The stage of the plan: the best motion inside the rails, over the whole flight and for each axis of W.
+"""The stage of the plan: the best motion inside the travel, axis by axis of W.
 
 The stage should have the acceleration d that the rider's head lacks. A cubic spline p(t) has a
-constant jerk between knots; the plan minimises mean((p'' - d)^2) with |p|, |p'|, |p''|, |p'''| within the limits, from rest in the centre to rest. Speeds
-and accelerations of the control points are unknowns of their own, tied to the positions by
-equations: with positions alone, whose third differences count by 1 / interval^3, the solver runs
-    out of digits on long flights.
+constant jerk between knots; the plan minimises mean((p'' - d)^2) over the whole flight with |p|,
+|p'|, |p''|, |p'''| within the limits, from rest in the centre to rest. Speeds and accelerations of
+the control points are unknowns of their own, tied to the positions by equations: with positions
+alone, whose third differences count by 1 / interval^3, the solver runs out of digits on long
+flights.
 """
 
 import numpy as np
 from scipy.sparse import csc_array, diags_array, eye_array, hstack, vstack
 
+from ...rotations import Array
 from ...signals import StageLimits
 from .solver import Bounds, minimise
-from .spline import Array, Spline, steps
+from .spline import Spline, steps
 
 _PLANNED_SHARE = 0.98  # of every limit; smoothing keeps a little of each
 # of acceleration and jerk towards the ends of the travel; smoothing goes there with 0.7 of each
@@ -22,8 +24,9 @@ _SLOPES = (8.0, 4.0, 2.0)
 
 
 def rails(spline: Spline, d_W: Array, limits: StageLimits) -> Array:
-    """Control points (points, 3) of the stage's position for the demand d_W (ticks, 3), m/s^2, axes of W.
+    """Give control points (points, 3) of the stage's position, m, in W.
 
+    d_W: the demand (ticks, 3), m/s^2, in W.
     Raises InputError when the solver fails.
     """
     push = acceleration(spline)
@@ -34,12 +37,15 @@ def rails(spline: Spline, d_W: Array, limits: StageLimits) -> Array:
 
 
 def acceleration(spline: Spline) -> csc_array:
-    """From the unknowns of one axis (positions, speeds, accelerations of control points) to its acceleration at the ticks."""
+    """Give the matrix from the unknowns of one axis to its acceleration at the ticks.
+
+    The unknowns are positions, speeds and accelerations of the control points.
+    """
     return csc_array(hstack([csc_array((spline.ticks, 2 * spline.points - 1)), spline.straight()]))
 
 
 def inside(spline: Spline, limits: StageLimits, axis: int) -> Bounds:
-    """What the unknowns of one axis of the stage must keep."""
+    """Give the bounds that the unknowns of one axis of the stage must keep."""
     n, h = spline.points, spline.interval
     most = (limits.travel[axis], limits.speed[axis], limits.acceleration[axis])
     bounds = Bounds()
@@ -62,9 +68,10 @@ def inside(spline: Spline, limits: StageLimits, axis: int) -> Bounds:
 
 
 def _spare(slope: float, acceleration: float, jerk: float) -> float:
-    """Speed v0 (m/s) of the line v = v0 + slope d that touches the speed from which a stop takes the distance d.
+    """Give the speed v0 (m/s) of the line v = v0 + slope d that touches the stopping curve.
 
-    A stop from v takes v/2 (v / A + A / J), so that v = sqrt(2 A d + h^2) - h with h = A^2 / 2J.
+    That is the speed from which a stop takes the distance d. A stop from v takes
+    v/2 (v / A + A / J), so that v = sqrt(2 A d + h^2) - h with h = A^2 / 2J.
     """
     a, h = _BRAKING_SHARE * acceleration, 0.5 * _BRAKING_SHARE * acceleration**2 / jerk
     root = a / slope
@@ -79,9 +86,9 @@ def _tied(n: int, h: float) -> csc_array:
 
 
 def _at_rest(n: int, last: int) -> csc_array:
-    """In the centre, the speed and the acceleration zero at the start.
+    """Give the matrix of what is zero: position, speed and acceleration at the start, and the end.
 
-    The `last` control points one and the same.
+    The speeds between the `last` control points are zero, so that these are one and the same.
     """
     last = min(last, n)
     columns = [0, n, n + 1, *range(2 * n - last, 2 * n - 1)]

@@ -21,10 +21,11 @@ import numpy as np
 from scipy.sparse import csc_array, eye_array, kron
 
 from ...errors import InputError
+from ...rotations import Array, cross
 from ...signals import STANDARD_GRAVITY
-from ..parameters import PreviewParameters
+from .preview_parameters import PreviewParameters
 from .solver import Bounds, minimise
-from .spline import Array, Spline
+from .spline import Spline
 
 # of the rate and the acceleration; the rest is for the way from the control points to the unit
 # sphere
@@ -37,7 +38,10 @@ _SIDEWAYS = 0.1  # rad, about; how a path straight through the centre begins to 
 
 @dataclass(frozen=True, slots=True)
 class Up:
-    """Unit vectors m at each tick (n, 3), and the rate m' x m (rad/s, (n, 3)) at which A turns against W; both in A."""
+    """W's up in A at each tick.
+
+    direction (n, 3): unit vectors m; rate (n, 3): m' x m, rad/s, at which A turns against W, in A.
+    """
 
     direction: Array
     rate: Array
@@ -47,15 +51,16 @@ class UpPlanner:
     """Plans the direction of W's up for forces in A, again and again over the same flight."""
 
     def __init__(self, spline: Spline, parameters: PreviewParameters) -> None:
-        """The control points of `spline` are what is planned."""
+        """Prepare plans of the control points of `spline`."""
         self._spline, self._parameters = spline, parameters
         self._bounds = slow(spline, parameters)
         self._bounds.length(csc_array(eye_array(spline.points)), 1.0)
         self._turning = turning(spline, parameters)
 
     def plan(self, f_A: Array) -> Array:
-        """Control points (points, 3) of the best course of W's up, for the specific force f_A (n, 3), m/s^2.
+        """Give control points (points, 3) of the best path of W's up.
 
+        f_A: the specific force at each tick (n, 3), m/s^2, in A.
         Raises InputError when there is none.
         """
         pull = (
@@ -86,17 +91,17 @@ class UpPlanner:
 
 
 def sampled(spline: Spline, points: Array) -> Up:
-    """W's up at the ticks, brought onto the unit sphere."""
+    """Give W's up at the ticks, brought onto the unit sphere, for control points (points, 3)."""
     curve, slope = spline.value @ points, spline.slope @ points
     length = np.linalg.norm(curve, axis=1, keepdims=True)
     direction = curve / length
-    return Up(direction, np.cross(slope / length, direction))
+    return Up(direction, cross(slope / length, direction))
 
 
 def slow(spline: Spline, parameters: PreviewParameters) -> Bounds:
-    """Bounds of rate and acceleration on the control points of W's up.
+    """Give the bounds of rate and acceleration on the control points of W's up.
 
-    At rest when the flight begins.
+    It is at rest when the flight begins.
     """
     bounds = Bounds()
     bounds.zero(csc_array(kron(spline.difference(1)[:2], eye_array(3))))
@@ -106,6 +111,6 @@ def slow(spline: Spline, parameters: PreviewParameters) -> Bounds:
 
 
 def turning(spline: Spline, parameters: PreviewParameters) -> csc_array:
-    """Twice the cost of the rate m' as a quadratic of the control points."""
+    """Give twice the cost of the rate m' as a quadratic of the control points."""
     weight = 2.0 / (parameters.rate_unit**2 * spline.ticks)
     return csc_array(kron(spline.slope.T @ spline.slope, weight * np.eye(3)))

@@ -1,4 +1,4 @@
-"""Knowing when to keep still: how much of what the stage could do would be of use."""
+"""The adaptive gain of the stage: how much of what it could do would be of use."""
 
 # mypyc: runs every tick
 
@@ -6,7 +6,7 @@ from math import exp
 
 
 class AdaptiveGain:
-    """Share g, 0 to 1, of an imagined motion that would have left the least rms error over the last while.
+    """Share g, 0 to 1, of an imagined motion that would have left the least rms error lately.
 
     A demand d that is met by g times the acceleration a of an imagined stage leaves an error of
     mean square <d^2> - 2 g <d a> + g^2 <a^2>, least at g = <d a> / <a^2>. Where the demand lasts,
@@ -18,9 +18,9 @@ class AdaptiveGain:
     """
 
     def __init__(self, dt: float, memory: float, first: float, doubt: float) -> None:
-        """Ticks of dt (s) count for `memory` (s).
+        """Begin with the share `first`; ticks of dt (s) count for `memory` (s).
 
-        The share begins as `first`, which counts for <a^2> = doubt, m^2/s^4.
+        The first share counts as much as experience with <a^2> = doubt (m^2/s^4).
         """
         self._forget = 1.0 - exp(-dt / memory)
         self._first, self._doubt = first, doubt

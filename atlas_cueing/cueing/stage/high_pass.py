@@ -5,8 +5,8 @@ A stage of finite travel can give only the onset of a lasting demand d:
     u = d s / (s + omega_r)        p = u / (s + omega)^2        a = p''
 
 brakes with the natural frequency omega and comes back to the centre with omega_r. The demand is
-limited beforehand, by A tanh(d / A), so that no demand whatever, by the L1 norms of the filter, can
-drive p, v or a out of their bounds.
+limited beforehand, by A tanh(d / A), so that no demand, by the L1 norms of the filter, can drive p,
+v or a out of their bounds.
 """
 
 # mypyc: runs every tick
@@ -22,7 +22,10 @@ class HighPass:
     def __init__(
         self, dt: float, onset: float, recentre: float, bandwidth: float, bound: float
     ) -> None:
-        """Parameters as in StageParameters, for one axis; `bound` is A, m/s^2; dt in s."""
+        """Start at rest in the centre.
+
+        Parameters as in StageParameters, for one axis; `bound` is A, m/s^2; dt in s.
+        """
         self._omega, self._bound = onset, bound
         self._braking = CriticalDamping(onset, dt)
         self._pass = 1.0 - exp(-2.0 * pi * bandwidth * dt)
@@ -31,7 +34,7 @@ class HighPass:
         self._started = False
 
     def step(self, demand: float) -> tuple[float, float, float]:
-        """Position, velocity and acceleration after one tick.
+        """Give position (m), velocity and acceleration after one tick, for a demand in m/s^2.
 
         A demand that is there at the start counts as lasting.
         """
@@ -56,10 +59,11 @@ class HighPass:
 
 
 def demand_bound(onset: float, travel: float, speed: float, acceleration: float) -> float:
-    """Largest demand A (m/s^2) that keeps the filter inside travel, speed and acceleration, whatever it was and is.
+    """Give the largest demand A (m/s^2) that keeps the filter inside travel, speed, acceleration.
 
-    |u| <= 2 A, since the lasting part of a demand within A is within A. The L1 norms of 1, s and s^2 over (s + omega)^2 are
-    1 / omega^2, 2 / (e omega) and 2 + 2 / e^2.
+    That holds for any history of the demand. |u| <= 2 A, since the lasting part of a demand within
+    A is within A. The L1 norms of 1, s and s^2 over (s + omega)^2 are 1 / omega^2, 2 / (e omega)
+    and 2 + 2 / e^2.
     """
     worst = (1.0 / onset**2, 2.0 / (e * onset), 2.0 + 2.0 / e**2)
     return 0.5 * min(travel / worst[0], speed / worst[1], acceleration / worst[2])

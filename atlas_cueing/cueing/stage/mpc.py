@@ -1,9 +1,9 @@
-"""The stage by plans that reach to a standstill, made anew some fifty times a second.
+"""The stage by model predictive control: plans to a standstill, made anew fifty times a second.
 
-The demand is limited and freed of its lasting part by an onset filter, whose motion is only
-imagined: it need not stay inside the travel, and tells what share of the demand is worth moving for
-(`horizon_share`). A plan for that share follows the same filter where the limits allow and does the
-next best where they do not (`horizon_problem`). It is flown until the next one; when there is none,
+The demand is limited and freed of its lasting part by a high-pass, whose motion is only imagined:
+it need not stay inside the travel, and shows what share of the demand is worth moving for
+(`adaptive_gain`). A plan for that share follows the same filter where the limits allow and does the
+next best where they do not (`mpc_qp`). It is flown until the next one; when there is none,
 to its end, where the stage stands.
 """
 
@@ -11,14 +11,14 @@ to its end, where the stage stands.
 
 from itertools import pairwise
 
-from ..parameters import HorizonParameters
 from .adaptive_gain import AdaptiveGain
 from .high_pass import HighPass, demand_bound
-from .mpc_qp import AxisLimits, HorizonProblem
+from .mpc_qp import AxisLimits, MpcProblem
 from .mpc_unconstrained import Plan
+from .stage_parameters import MpcParameters
 
 
-class HorizonAxis:
+class MpcAxis:
     """One axis of the stage: demand (m/s^2) in, position, velocity and acceleration out."""
 
     def __init__(
@@ -28,10 +28,10 @@ class HorizonAxis:
         recentre: float,
         bandwidth: float,
         limits: AxisLimits,
-        parameters: HorizonParameters,
+        parameters: MpcParameters,
         delay: int,
     ) -> None:
-        """Onset, recentre and bandwidth as in StageParameters, for one axis; dt in s.
+        """Start at rest in the centre; parameters as in StageParameters, for one axis; dt in s.
 
         The first plan is made `delay` ticks late, so that three axes need not plan in the same
         tick.
@@ -42,7 +42,7 @@ class HorizonAxis:
         bound = parameters.excess * demand_bound(onset, *limits[:3])
         self._imagined = HighPass(dt, onset, recentre, bandwidth, bound)
         self._useful = AdaptiveGain(dt, parameters.memory, parameters.first_share, parameters.doubt)
-        self.problem = HorizonProblem(
+        self.problem = MpcProblem(
             [ticks * dt for ticks in self._ticks], onset, parameters.fade, limits
         )
         self._to_next = delay % self._period
@@ -52,7 +52,7 @@ class HorizonAxis:
         self._jerk = 0.0  # of this block
 
     def step(self, demand: float) -> tuple[float, float, float]:
-        """Position, velocity and acceleration after one tick.
+        """Give position (m), velocity and acceleration after one tick, for a demand in m/s^2.
 
         A demand that is there at the start counts as lasting.
         """
@@ -95,15 +95,18 @@ class HorizonAxis:
 
 
 def planning_ticks(dt: float, rate: float) -> int:
-    """Whole ticks of dt (s) from one plan to the next, at no less than `rate` (Hz) where the ticks allow it."""
+    """Give the whole ticks of dt (s) from one plan to the next.
+
+    Plans come at no less than `rate` (Hz) where the ticks allow it.
+    """
     return max(1, int(1.0 / (rate * dt) + 1e-9))
 
 
 def block_ticks(period: int, horizon: float, blocks: int) -> list[int]:
-    """Ticks of each block: whole planning periods, the first block one, growing to about `horizon` ticks together.
+    """Give the ticks of each block: whole planning periods, about `horizon` ticks together.
 
-    Since blocks begin and end where plans do, a plan always begins within one block of the plan
-    before.
+    The first block is one period, and they grow. Since blocks begin and end where plans do, a plan
+    always begins within one block of the plan before.
     """
     growth, ends = (1.0 + horizon / period) ** (1.0 / blocks), [0]
     for k in range(1, blocks + 1):

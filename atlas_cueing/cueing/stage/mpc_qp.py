@@ -16,8 +16,8 @@ Over a block v is a parabola and p a cubic. Both lie within the hull of their Be
 so bounds on these hold between the nodes too. A first block within a block of the plan before has
 its control points within that one's hull, so that replacing a plan never gives up a limit.
 
-Where the optimum without limits keeps them all, it is the plan (`horizon_law`); otherwise daqp
-searches for it.
+Where the optimum without limits keeps them all, it is the plan (`mpc_unconstrained`); otherwise
+daqp searches for it.
 """
 
 # mypyc: runs every tick
@@ -28,19 +28,16 @@ from typing import TypeAlias
 
 import daqp
 import numpy as np
-from numpy.typing import NDArray
 
+from ...rotations import Array
 from .mpc_unconstrained import Plan, State, UnlimitedPlan
 
-Array: TypeAlias = NDArray[np.float64]
 # travel m, speed m/s, acceleration m/s^2, jerk m/s^3
 AxisLimits: TypeAlias = tuple[float, float, float, float]
 
 LIMIT_SHARE = 0.999
-"""Share of each limit that is planned with (assumed.
-
-What the solver leaves, some 1e-6, is far below the rest).
-"""
+"""Share of each limit that is planned with (assumed: the solver's error, some 1e-6, is far below
+the rest)."""
 
 _ITERATIONS = 200  # of the active set, where ten are many: bounds the time of a solve (assumed)
 _SOLVED = 1  # daqp's exit flag for an optimum
@@ -48,7 +45,7 @@ _EQUATION = 5  # daqp's type of an equality
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(4)  # exact for the square of a cubic
 
 
-class HorizonProblem:
+class MpcProblem:
     """Finds the jerks of the best plan of one axis.
 
     Of the unknowns x (m,) the cost is x hessian x / 2 + x gradient (p, v, a, d), with `hessian` (m,
@@ -59,9 +56,10 @@ class HorizonProblem:
     def __init__(
         self, durations: Sequence[float], omega: float, fade: float, limits: AxisLimits
     ) -> None:
-        """Blocks of these durations (s), at least two; omega in rad/s.
+        """Set up the problem of blocks with these durations (s), at least two.
 
-        `fade`, s, is the time constant of the demand ahead.
+        omega: natural frequency of the filter followed, rad/s; fade: time constant with which the
+        demand goes on, s.
 
         Raises ValueError when the solver does not take the problem.
         """
@@ -93,14 +91,14 @@ class HorizonProblem:
         self._solver.settings = {"iter_limit": _ITERATIONS}
 
     def solve(self, p: float, v: float, a: float, demand: float) -> Plan | None:
-        """The plan from state p, v, a and the demand now (m/s^2); None when none was found."""
+        """Find the plan from state p, v, a and the demand now (m/s^2); None when there is none."""
         state = (p, v, a, demand)
         if self.unlimited.is_free(state):
             return self.unlimited.plan(state)
         return self._within_limits(state)
 
     def _within_limits(self, state: State) -> Plan | None:
-        """The plan that daqp finds, which takes some ten times as long."""
+        """Find the plan by daqp, which takes some ten times as long as the unconstrained one."""
         of_now = self._from_now @ np.array(state)
         offset, linear = of_now[: self._bounds], of_now[self._bounds :]
         if (
@@ -127,9 +125,9 @@ class HorizonProblem:
 def _prepared(
     durations: tuple[float, ...], omega: float, fade: float, limits: AxisLimits
 ) -> tuple[Array, Array, Array, UnlimitedPlan]:
-    """Matrix of the cost, forms of all that is bounded, their bounds, and what follows from them.
+    """Make the matrix of the cost, the forms of all that is bounded, their bounds, and their plan.
 
-    All to be read only.
+    The arrays cannot be written to.
     """
     nodes = _nodes(durations)
     cost, (bounded, bound) = _cost(durations, nodes, omega, fade), _limits(durations, nodes, limits)
@@ -139,7 +137,7 @@ def _prepared(
 
 
 def _nodes(durations: Sequence[float]) -> tuple[Array, Array, Array]:
-    """Forms (n + 1, 4 + m) of p, v and a at the ends of the blocks, the first being now."""
+    """Give the forms (n + 1, 4 + m) of p, v and a at the ends of the blocks; the first is now."""
     blocks = len(durations)
     p, v, a = np.zeros((3, blocks + 1, blocks + 3))
     p[0, 0] = v[0, 1] = a[0, 2] = 1.0
@@ -153,7 +151,7 @@ def _nodes(durations: Sequence[float]) -> tuple[Array, Array, Array]:
 def _cost(
     durations: Sequence[float], nodes: tuple[Array, Array, Array], omega: float, fade: float
 ) -> Array:
-    """Matrix C (4 + m, 4 + m) of the cost y C y / 2, y = (p, v, a, d, x)."""
+    """Give the matrix C (4 + m, 4 + m) of the cost y C y / 2, y = (p, v, a, d, x)."""
     p, v, a = nodes
     cost, begin = np.zeros((p.shape[1], p.shape[1])), 0.0
     for k, h in enumerate(durations):
@@ -172,11 +170,10 @@ def _cost(
 def _limits(
     durations: Sequence[float], nodes: tuple[Array, Array, Array], limits: AxisLimits
 ) -> tuple[Array, Array]:
-    """Forms of all that is bounded, and their bounds.
+    """Give the forms of all that is bounded, and their bounds.
 
-    Unknowns, jerks, v and p by control points, v = 0 at the end.
-
-    Control points that the state alone decides are left out.
+    These are the unknowns, the jerks, v and p by control points, and v = 0 at the end. Control
+    points that the state alone decides are left out.
     """
     p, v, a = nodes
     h = np.asarray(durations)[:, None]

@@ -35,13 +35,13 @@ class Plan:
         self._rows, self._state = rows, state
 
     def jerk(self, block: int) -> float:
-        """That of one block."""
+        """Give the jerk (m/s^3) of one block."""
         row, state = self._rows[block], self._state
         return row[0] * state[0] + row[1] * state[1] + row[2] * state[2] + row[3] * state[3]
 
     @property
     def jerks(self) -> list[float]:
-        """Those of all blocks."""
+        """The jerks (m/s^3) of all blocks."""
         return [self.jerk(block) for block in range(len(self._rows))]
 
 
@@ -51,7 +51,10 @@ class UnlimitedPlan:
     def __init__(
         self, durations: Sequence[float], cost: Array, bounded: Array, bound: Array
     ) -> None:
-        """Blocks of these durations (s); cost, bounded and bound as `horizon_problem` makes them for (p, v, a, d, x)."""
+        """Solve for blocks of these durations (s).
+
+        cost, bounded and bound are the matrices that `mpc_qp` makes for (p, v, a, d, x).
+        """
         m = len(durations) - 1
         equation = bounded[-1]
         system = np.block(
@@ -69,11 +72,11 @@ class UnlimitedPlan:
         self._jerk: list[State] = [(p, v, a, d) for p, v, a, d in rows]
 
     def plan(self, state: State) -> Plan:
-        """The plan from p, v, a and the demand now."""
+        """Give the plan from p, v, a and the demand now."""
         return Plan(self._jerk, state)
 
     def is_free(self, state: State) -> bool:
-        """Whether it keeps every limit.
+        """Whether the plan from this state keeps every limit.
 
         Nearly all states are settled by the first jerk, which is the nearest to its limit since it
         has to catch up with a demand that jumps, and by a bound on all the others at once.

@@ -1,35 +1,39 @@
-"""What the stage should do: part of the acceleration that the rider's head lacks, inside the travel.
+"""What the stage should do: part of the acceleration that the rider's head lacks.
 
 A rider feels f = R_SW (a_head - g_W), so the head should have a_head = R_WS f_vehicle + g_W. For a
 head off the centre the sphere's own turning gives alpha x r + w x (w x r) of it; the rest is asked
-of the stage, and each axis does with it what its planner can (`horizon`, `onset`).
+of the stage, and each axis does with it what its planner can inside the travel (`mpc` or
+`high_pass`).
 """
 
 # mypyc: runs every tick
 
-from typing import TypeAlias
+from typing import TypeAlias, assert_never
 
 from ...rotation import ZERO, Quat, Vec3, add, cross, flip, rotate, scale, subtract
 from ...signals import STANDARD_GRAVITY, StageLimits
-from ..parameters import StageParameters
 from .high_pass import HighPass, demand_bound
-from .mpc import HorizonAxis
+from .mpc import MpcAxis
+from .stage_parameters import StageParameters
 
 _GRAVITY_W: Vec3 = (0.0, 0.0, -STANDARD_GRAVITY)
 
 
-StageAxis: TypeAlias = HorizonAxis | HighPass
+StageAxis: TypeAlias = MpcAxis | HighPass
 """One axis of the stage: `step` gives position (m), velocity and acceleration one tick on, for a
-    demand in m/s^2."""
+demand in m/s^2."""
 
 
 class StageCueing:
-    """Stage position, velocity and acceleration (W) from the cue's orientation and the vehicle's specific force."""
+    """Motion of the stage for the cue's orientation and the vehicle's specific force."""
 
     def __init__(
         self, dt: float, parameters: StageParameters, limits: StageLimits, head_S: Vec3
     ) -> None:
-        """head_S: the rider's head from the sphere centre, m, frame S; dt in s."""
+        """Start at rest in the centre.
+
+        head_S: the rider's head from the sphere's centre, m, in S; dt in s.
+        """
         self._dt, self._gain = dt, parameters.force_gain
         self._head, self._centred = head_S, head_S == ZERO
         self._axes: tuple[StageAxis, StageAxis, StageAxis] = (
@@ -40,7 +44,11 @@ class StageCueing:
         self._w_before: Vec3 | None = None
 
     def step(self, q_WS: Quat, w_WS_W: Vec3, f_B: Vec3) -> tuple[Vec3, Vec3, Vec3]:
-        """Position (m), velocity (m/s) and acceleration (m/s^2) in W."""
+        """Give position (m), velocity (m/s) and acceleration (m/s^2) of the stage in W.
+
+        q_WS and w_WS_W (rad/s): the rotation of the cue; f_B: the vehicle's specific force (m/s^2,
+        FRD).
+        """
         wanted = add(rotate(q_WS, flip(f_B)), _GRAVITY_W)
         lacking = subtract(wanted, self._turning(q_WS, w_WS_W))
         gain, axes = self._gain, self._axes
@@ -61,16 +69,15 @@ class StageCueing:
 
 
 def _axis(i: int, dt: float, parameters: StageParameters, limits: StageLimits) -> StageAxis:
-    """The planner of axis i."""
+    """Make the planner of axis i."""
     onset, recentre, bandwidth = parameters.onset[i], parameters.recentre[i], parameters.bandwidth
-    travel, speed, acceleration = (
-        min(limits.travel[i], parameters.travel[i]),
-        limits.speed[i],
-        limits.acceleration[i],
-    )
-    if parameters.horizon is None:
-        return HighPass(
-            dt, onset, recentre, bandwidth, demand_bound(onset, travel, speed, acceleration)
-        )
-    limit = travel, speed, acceleration, limits.jerk[i]
-    return HorizonAxis(dt, onset, recentre, bandwidth, limit, parameters.horizon, i)
+    travel = min(limits.travel[i], parameters.travel[i])
+    speed, acceleration = limits.speed[i], limits.acceleration[i]
+    match parameters.planner:
+        case "onset":
+            bound = demand_bound(onset, travel, speed, acceleration)
+            return HighPass(dt, onset, recentre, bandwidth, bound)
+        case "horizon":
+            limit = travel, speed, acceleration, limits.jerk[i]
+            return MpcAxis(dt, onset, recentre, bandwidth, limit, parameters.mpc, i)
+    assert_never(parameters.planner)

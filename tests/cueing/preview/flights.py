@@ -7,7 +7,7 @@ from math import pi, radians, sin
 import numpy as np
 
 from atlas_cueing.cueing import PreviewParameters
-from atlas_cueing.cueing.preview import preview
+from atlas_cueing.cueing.preview.motion_plan import plan_motion
 from atlas_cueing.rotation import ZERO, Quat, Vec3, exp, from_euler
 from atlas_cueing.signals import STANDARD_GRAVITY, Cue, StageLimits, VehicleState, felt
 
@@ -23,7 +23,7 @@ G = STANDARD_GRAVITY
 
 @dataclass(frozen=True)
 class Planned:
-    """A plan in columns: the cues, and what a rider who gets them feels less what the pilot feels (FRD)."""
+    """A plan in columns, and what its rider feels less what the pilot feels (FRD)."""
 
     cues: list[Cue]
     q: np.ndarray
@@ -43,7 +43,7 @@ def planned(
     dt: float = DT,
 ) -> Planned:
     """Plan and play, tick by tick."""
-    plan = preview(states, parameters, limits, head, dt)
+    plan = plan_motion(states, parameters, limits, head, dt)
     cues = [plan.step(state) for state in states]
     q, w, p, v, a = (
         np.array([getattr(cue, name) for cue in cues])
@@ -79,7 +79,7 @@ def flying(
 def tilting(
     seconds: float = 20.0, angle: float = radians(20.0), start: Quat = EAST_ISH
 ) -> list[VehicleState]:
-    """The force swings over to one side, as fast as gravity could never be turned at 3 deg/s, and stays there."""
+    """The force swings to one side, faster than gravity turns at 3 deg/s, and stays."""
 
     def force(t: float) -> Vec3:
         over = angle * min(max((t - 8.0) / 1.0, 0.0), 1.0)

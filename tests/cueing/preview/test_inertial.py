@@ -5,26 +5,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from atlas_cueing.cueing.preview.inertial import inertial
-from atlas_cueing.cueing.preview.quaternions import back, product, rotated
 from atlas_cueing.rotation import exp, flip
 
 from ..vehicles import LEVEL, manoeuvring, spinning
-
-RANDOM = np.random.default_rng(3)
-P, Q = (Rotation.random(20, random_state=i) for i in (1, 2))
-V = RANDOM.normal(size=(20, 3))
-
-
-def scalar_first(r: Rotation) -> np.ndarray:
-    return np.roll(r.as_quat(), 1, axis=1)
-
-
-def test_rows_turn_as_scipy_s_do() -> None:
-    p, q = scalar_first(P), scalar_first(Q)
-    assert np.allclose(rotated(p, V), P.apply(V))
-    assert np.allclose(back(p, V), P.inv().apply(V))
-    both = Rotation.from_quat(np.roll(product(p, q), -1, axis=1))
-    assert np.allclose((both.inv() * (P * Q)).magnitude(), 0.0, atol=1e-12)
 
 
 def test_a_constant_rate_turns_about_its_axis() -> None:
@@ -39,7 +22,7 @@ def test_a_constant_rate_turns_about_its_axis() -> None:
 
 
 def test_turning_drops_out_of_the_vehicle_s_own_attitude() -> None:
-    """A differs from N by a constant turn, so the angle between any two orientations is the same in both."""
+    """A differs from N by a constant turn: angles between orientations are the same."""
     states = list(manoeuvring(0.005, 8.0))
     seen = inertial(states, 0.005)
     turned = Rotation.from_quat(np.roll(seen.q_AS, -1, axis=1))

@@ -18,7 +18,7 @@ ONE_AFTER_THE_OTHER = replace(QUICK, rounds=0)
 
 @pytest.mark.parametrize("frequency", [0.6, 1.5])
 def test_both_at_once_are_better(frequency: float) -> None:
-    """A force that rocks sideways, slower than the stage's travel lasts and a little faster than the cabin may turn."""
+    """A force that rocks sideways, too slow for the travel and a bit fast for the cabin."""
     states = flying(12.0, lambda t: (0.0, 1.2 * float(np.sin(frequency * t)), -G))
     both, each = planned(states, QUICK), planned(states, ONE_AFTER_THE_OTHER)
     assert cost(both.force_error, both.rate_error) < 0.97 * cost(each.force_error, each.rate_error)

@@ -1,4 +1,4 @@
-"""The whole plan: inside its limits, consistent with itself, and better than what does not know the future."""
+"""The whole plan: inside its limits, consistent, and better than causal methods."""
 
 from dataclasses import replace
 from math import radians
@@ -16,6 +16,7 @@ from atlas_cueing.cueing import (
     StageParameters,
     build_cueing,
 )
+from atlas_cueing.cueing.preview.motion_plan import _product
 from atlas_cueing.errors import InputError
 from atlas_cueing.rotation import ZERO, Vec3, from_euler
 from atlas_cueing.signals import Cue, VehicleState, felt
@@ -113,7 +114,10 @@ def test_it_keeps_its_limits_and_beats_those_who_do_not_know_the_future(
 
 
 def test_as_fast_as_method_force_it_follows_the_force() -> None:
-    """Rolls with the force along the seat: the cabin stands still, where 3 deg/s would turn it over."""
+    """Rolls with the force along the seat: the cabin stands still.
+
+    A rate of 3 deg/s would turn it over.
+    """
     slow, fast = planned(rolling(), replace(QUICK)), planned(rolling(), FAST)
     check(fast)
     assert cost(fast.force_error, fast.rate_error) < cost(slow.force_error, slow.rate_error)
@@ -185,7 +189,10 @@ def test_forces_that_nothing_has_get_no_plan(bad: float) -> None:
 
 
 def test_the_head_is_where_the_force_is_felt() -> None:
-    """Spinning up about the vertical: a head off the axis is accelerated, and the stage takes it back."""
+    """Spinning up about the vertical accelerates a head off the axis.
+
+    The stage takes it back.
+    """
 
     def spin(t: float) -> Vec3:
         return (0.0, 0.0, 0.3 * t)
@@ -196,3 +203,10 @@ def test_the_head_is_where_the_force_is_felt() -> None:
     assert np.max(np.abs(off.p)) > 0.02
     assert radians(0.1) < np.max(np.linalg.norm(off.rate_error, axis=1)) <= QUICK.rate
     assert DEFAULT.rate == QUICK.rate
+
+
+def test_products_are_compositions() -> None:
+    p, q = (Rotation.random(20, rng=np.random.default_rng(seed)) for seed in (1, 2))
+    rows = _product(p.as_quat(scalar_first=True), q.as_quat(scalar_first=True))
+    found = Rotation.from_quat(rows, scalar_first=True)
+    assert np.max((found.inv() * (p * q)).magnitude()) < 1e-14

@@ -6,9 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 
-from atlas_cueing.cueing.preview.spline import Array, Spline
+from atlas_cueing.cueing.preview.spline import Spline
 from atlas_cueing.cueing.preview.stage_plan import rails
 from atlas_cueing.rotation import IDENTITY, ZERO
+from atlas_cueing.rotations import Array
 from atlas_cueing.signals import Cue
 from atlas_cueing.smoothing.stage import StageSmoothing
 

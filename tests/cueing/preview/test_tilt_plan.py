@@ -110,7 +110,10 @@ def test_no_neighbour_is_better() -> None:
 
 
 def test_the_plan_begins_before_the_force_does() -> None:
-    """Half of a swing of 12 deg in one second is over before it happens: 3 deg/s take 4 s for it."""
+    """Half of a swing of 12 deg in a second is over before it happens.
+
+    At 3 deg/s it takes 4 s.
+    """
     over = radians(12.0)
     up = planned(about_x(over * np.clip(TIME - 9.5, 0.0, 1.0)))
     angle = np.arctan2(up.direction[:, 1], up.direction[:, 2])
@@ -123,7 +126,10 @@ def test_the_plan_begins_before_the_force_does() -> None:
 def test_a_force_that_turns_over_is_followed_round_the_sphere(
     parameters: PreviewParameters, seconds: float
 ) -> None:
-    """Straight over, where the way through the centre would be the shortest and no side is the better one."""
+    """Straight over, where the way through the centre would be the shortest.
+
+    No side is the better one.
+    """
     f_A = np.zeros((len(TIME), 3))
     f_A[:, 2] = G * np.clip((10.0 - TIME) / seconds, -1.0, 1.0)
     up = planned(f_A, parameters)

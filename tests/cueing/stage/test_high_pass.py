@@ -19,7 +19,7 @@ def one_axis(choice: tuple[float, float, float]) -> StageParameters:
     """The same parameters on every axis."""
     onset, recentre, bandwidth = choice
     return StageParameters(
-        onset=(onset,) * 3, recentre=(recentre,) * 3, bandwidth=bandwidth, horizon=None
+        onset=(onset,) * 3, recentre=(recentre,) * 3, bandwidth=bandwidth, planner="onset"
     )
 
 
@@ -96,7 +96,11 @@ def test_the_travel_holds_whichever_pole_is_the_slowest(choice: tuple[float, flo
 def test_the_travel_holds_whatever_demand_was_there_at_the_start(
     parameters: StageParameters, start: float
 ) -> None:
-    """It counts as lasting; without a return to the centre it does so for ever, and the opposite demand is twice as far off."""
+    """A demand that is there at the start counts as lasting.
+
+    Without a return to the centre it does so for ever, and the opposite demand is twice as far
+    off.
+    """
     dt, cueing = 1.0 / 50.0, StageCueing(1.0 / 50.0, parameters, LIMITS, ZERO)
     ask(cueing, start)
     path = [
@@ -108,7 +112,7 @@ def test_the_travel_holds_whatever_demand_was_there_at_the_start(
 
 def test_onset_and_return_are_the_axis_s_own() -> None:
     """Three axes, three filters: each is that of its own numbers, with the others' changed."""
-    whole = StageParameters(onset=(1.0, 2.0, 3.0), recentre=(0.3, 0.1, 0.0), horizon=None)
+    whole = StageParameters(onset=(1.0, 2.0, 3.0), recentre=(0.3, 0.1, 0.0), planner="onset")
     states = []
     for parameters in (
         whole,
@@ -131,7 +135,7 @@ def test_onset_and_return_are_the_axis_s_own() -> None:
 
 @pytest.mark.parametrize("onset", [0.5, 1.5, 4.0])
 def test_the_bound_is_that_of_the_filter_s_l1_norms(onset: float) -> None:
-    """Norms of the impulse responses of 1, s and s^2 over (s + onset)^2, summed finely, under twice the bound."""
+    """Norms of impulse responses of 1, s, s^2 over (s + onset)^2, under twice the bound."""
     t = np.linspace(0.0, 40.0 / onset, 400_001)
     decay, dt = np.exp(-onset * t), t[1]
     norms = [

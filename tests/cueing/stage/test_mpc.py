@@ -1,4 +1,4 @@
-"""One axis of the stage by plans: inside its limits for ever, useful on onsets, still where the demand lasts."""
+"""One axis of the stage by plans: inside its limits, useful on onsets, else still."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -9,26 +9,26 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from atlas_cueing.cueing import HorizonParameters
+from atlas_cueing.cueing import MpcParameters
 from atlas_cueing.cueing.stage.high_pass import HighPass
-from atlas_cueing.cueing.stage.mpc import HorizonAxis, block_ticks, planning_ticks
+from atlas_cueing.cueing.stage.mpc import MpcAxis, block_ticks, planning_ticks
 from atlas_cueing.cueing.stage.mpc_unconstrained import Plan
 
 DT = 1.0 / 120.0
 LIMITS = (1.0, 1.5, 6.0, 60.0)
 SMALL = (0.05, 0.2, 2.0, 40.0)
-DEFAULT = HorizonParameters()
+DEFAULT = MpcParameters()
 EAGER = replace(DEFAULT, first_share=1.0, doubt=1e12, excess=100.0)
 """Moves for the whole demand, whatever comes of it, and well into the limits."""
 
 
 def axis(
     dt: float = DT, limits: tuple[float, float, float, float] = LIMITS, **changes: Any
-) -> HorizonAxis:
-    return HorizonAxis(dt, 0.7, 0.2, 5.0, limits, replace(EAGER, **changes), 0)
+) -> MpcAxis:
+    return MpcAxis(dt, 0.7, 0.2, 5.0, limits, replace(EAGER, **changes), 0)
 
 
-def fly(moved: HorizonAxis, demands: Any) -> np.ndarray:
+def fly(moved: MpcAxis, demands: Any) -> np.ndarray:
     """p, v, a before and after each tick, a row each; from rest in the centre."""
     return np.array([(0.0, 0.0, 0.0), *(moved.step(float(demand)) for demand in demands)])
 
@@ -111,7 +111,10 @@ def test_without_new_plans_it_goes_on_to_a_standstill_inside_the_limits(
 def test_one_failure_now_and_then_goes_unnoticed_but_for_the_plan_s_age(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Every third plan missing: a plan then begins in the middle of the one before, still inside all limits."""
+    """Without every third plan the stage stays inside all limits.
+
+    A plan then begins in the middle of the one before.
+    """
     moved, calls, found = axis(), 0, 0
     solve = moved.problem.solve
 
@@ -129,7 +132,7 @@ def test_one_failure_now_and_then_goes_unnoticed_but_for_the_plan_s_age(
 
 
 def test_far_from_the_limits_it_is_the_onset_filter() -> None:
-    """A second derivation: what the completed square promises, but for jerk limit and the blocks' length."""
+    """A second derivation: the completed square, but for jerk limit and blocks."""
     t = np.arange(0.0, 20.0, DT)
     demand = 0.1 * np.sin(0.8 * t) + 0.1 * np.sin(2.5 * t + 1.0) * (t > 5.0)
     planned = fly(axis(), demand)[1:]
@@ -139,9 +142,9 @@ def test_far_from_the_limits_it_is_the_onset_filter() -> None:
     assert np.all(error < 0.06), error
 
 
-def ratio(demand: np.ndarray, parameters: HorizonParameters = DEFAULT) -> float:
+def ratio(demand: np.ndarray, parameters: MpcParameters = DEFAULT) -> float:
     """Rms error with the stage over that without."""
-    moved = HorizonAxis(DT, 0.7, 0.2, 5.0, LIMITS, parameters, 0)
+    moved = MpcAxis(DT, 0.7, 0.2, 5.0, LIMITS, parameters, 0)
     left = demand - fly(moved, demand)[1:, 2]
     return float(np.sqrt(np.mean(left**2) / np.mean(demand**2)))
 
@@ -160,7 +163,7 @@ def test_onsets_are_felt() -> None:
 
 @pytest.mark.parametrize("period", [40.0, 80.0])
 def test_it_keeps_still_where_the_demand_lasts(period: float) -> None:
-    """Demands of 1 m/s^2 that stay for 20 s and more: a stage that moved for them would only add to the error."""
+    """For demands of 1 m/s^2 that stay for 20 s any motion adds to the error."""
     t = np.arange(0.0, 240.0, DT)
     lasting = np.where(np.sin(2.0 * np.pi * t / period) >= 0.0, 1.0, -1.0) * (t > 1.0)
     slow = np.sin(2.0 * np.pi * t / period)
@@ -221,7 +224,7 @@ def test_the_first_block_of_the_defaults_is_one_period() -> None:
 def test_a_late_start_shifts_the_plans(monkeypatch: pytest.MonkeyPatch) -> None:
     begun = []
     for delay in (0, 1, 2, 5):
-        moved, ticks = HorizonAxis(1e-3, 0.7, 0.2, 5.0, LIMITS, EAGER, delay), []
+        moved, ticks = MpcAxis(1e-3, 0.7, 0.2, 5.0, LIMITS, EAGER, delay), []
         for tick in range(100):
             monkeypatch.setattr(
                 moved, "_plan", lambda _, tick=tick, ticks=ticks: ticks.append(tick)

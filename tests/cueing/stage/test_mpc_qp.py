@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import simpson
 from scipy.optimize import minimize
 
-from atlas_cueing.cueing.stage.mpc_qp import LIMIT_SHARE, HorizonProblem
+from atlas_cueing.cueing.stage.mpc_qp import LIMIT_SHARE, MpcProblem
 from atlas_cueing.signals import StageLimits
 
 LIMITS = (1.0, 1.5, 6.0, 60.0)
@@ -49,7 +49,10 @@ def cost(state: tuple[float, ...], jerks: np.ndarray) -> float:
 
 
 def controls(state: tuple[float, ...], jerks: np.ndarray) -> np.ndarray:
-    """Use of each limit: accelerations at the nodes, control points of v and p by interpolation, jerks; begin left out."""
+    """Use of each limit by accelerations, jerks, and control points of v and p.
+
+    The begin is left out.
+    """
     used = list(jerks / LIMITS[3])
     for k, (_, (p, v, a)) in enumerate(simulate(state, jerks)):
         speeds, places = bernstein(v, 2), bernstein(p, 3)
@@ -115,7 +118,7 @@ def weights(t: np.ndarray) -> np.ndarray:
     return w * (t[1] - t[0]) / 3.0
 
 
-def solved(problem: HorizonProblem, state: tuple[float, float, float, float]) -> list[float]:
+def solved(problem: MpcProblem, state: tuple[float, float, float, float]) -> list[float]:
     """Jerks of the plan, which there is."""
     plan = problem.solve(*state)
     assert plan is not None
@@ -128,7 +131,7 @@ def accelerations(state: tuple[float, ...], jerks: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("state", STATES, ids=str)
 def test_the_plan_is_the_one_that_scipy_finds(state: tuple[float, float, float, float]) -> None:
-    jerks = solved(HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS), state)
+    jerks = solved(MpcProblem(DURATIONS, OMEGA, FADE, LIMITS), state)
     other = best(state)
     assert cost(state, np.array(jerks)) == pytest.approx(cost(state, other), rel=1e-6, abs=1e-9)
     assert accelerations(state, np.array(jerks)) == pytest.approx(
@@ -141,7 +144,7 @@ def test_every_plan_ends_at_a_standstill_inside_all_limits(
     state: tuple[float, float, float, float],
 ) -> None:
     """Also between the nodes, and with the limits used where the demand is large."""
-    jerks = solved(HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS), state)
+    jerks = solved(MpcProblem(DURATIONS, OMEGA, FADE, LIMITS), state)
     blocks = simulate(state, np.array(jerks))
     assert [float(x[-1]) for x in blocks[-1][1][1:]] == pytest.approx([0.0, 0.0], abs=1e-6)
     most = (
@@ -158,7 +161,7 @@ def test_every_plan_ends_at_a_standstill_inside_all_limits(
 def test_costs_and_limits_are_those_of_the_simulation() -> None:
     """For plans at random, good or bad: the matrices give what simulating gives."""
     random = np.random.default_rng(5)
-    problem = HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS)
+    problem = MpcProblem(DURATIONS, OMEGA, FADE, LIMITS)
     difference = []
     state = (0.2, -0.3, 0.4, 1.5)
     now = np.array(state)
@@ -189,7 +192,7 @@ class BrokenSolver:
 
 @pytest.mark.parametrize(("updated", "flag"), [(-1, 1), (0, -1), (0, -4), (0, 2), (0, 0)])
 def test_any_odd_status_is_no_plan(updated: int, flag: int) -> None:
-    problem = HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS)
+    problem = MpcProblem(DURATIONS, OMEGA, FADE, LIMITS)
     assert problem.solve(0.0, 0.0, 0.0, 1.0) is not None
     problem._solver = BrokenSolver(updated, flag)
     assert problem.solve(0.0, 0.0, 0.0, 1.0) is None
@@ -197,11 +200,11 @@ def test_any_odd_status_is_no_plan(updated: int, flag: int) -> None:
 
 def test_a_state_without_a_way_out_is_no_plan_and_is_forgotten() -> None:
     """Too fast to stop before the end; then from a harmless state as if nothing had been."""
-    problem = HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS)
+    problem = MpcProblem(DURATIONS, OMEGA, FADE, LIMITS)
     assert problem.solve(0.95, 1.4, 0.0, 0.0) is None
     again, fresh = (
         solved(problem, STATES[1]),
-        solved(HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS), STATES[1]),
+        solved(MpcProblem(DURATIONS, OMEGA, FADE, LIMITS), STATES[1]),
     )
     assert again == pytest.approx(fresh, abs=1e-6)
 
@@ -209,11 +212,11 @@ def test_a_state_without_a_way_out_is_no_plan_and_is_forgotten() -> None:
 @pytest.mark.parametrize("scale", [1e-3, 1e4])
 def test_small_and_large_stages_are_solved_alike(scale: float) -> None:
     """All lengths times a factor: all jerks times that."""
-    one = solved(HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS), (0.3, -0.2, 0.1, 5.0))
+    one = solved(MpcProblem(DURATIONS, OMEGA, FADE, LIMITS), (0.3, -0.2, 0.1, 5.0))
     travel, speed, acceleration, jerk = (scale * x for x in LIMITS)
     p, v, a, demand = (scale * x for x in (0.3, -0.2, 0.1, 5.0))
     other = solved(
-        HorizonProblem(DURATIONS, OMEGA, FADE, (travel, speed, acceleration, jerk)),
+        MpcProblem(DURATIONS, OMEGA, FADE, (travel, speed, acceleration, jerk)),
         (p, v, a, demand),
     )
     assert [x / scale for x in other] == pytest.approx(one, abs=1e-2)

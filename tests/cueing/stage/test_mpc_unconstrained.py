@@ -1,14 +1,14 @@
-"""The closed form against the solver that it saves, and its word on limits against the plan itself."""
+"""The closed form against the solver, and its check of limits against the plan."""
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from atlas_cueing.cueing.stage.mpc_qp import HorizonProblem
+from atlas_cueing.cueing.stage.mpc_qp import MpcProblem
 from cueing.stage.test_mpc_qp import DURATIONS, FADE, LIMITS, OMEGA, STATES, controls
 
-PROBLEM = HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS)
+PROBLEM = MpcProblem(DURATIONS, OMEGA, FADE, LIMITS)
 State = tuple[float, float, float, float]
 
 
@@ -53,7 +53,7 @@ def test_both_answers_occur() -> None:
 
 
 def test_the_solver_is_asked_only_where_limits_matter() -> None:
-    problem = HorizonProblem(DURATIONS, OMEGA, FADE, LIMITS)
+    problem = MpcProblem(DURATIONS, OMEGA, FADE, LIMITS)
     del problem._solver
     plan = problem.solve(*STATES[1])
     assert plan is not None

@@ -1,4 +1,7 @@
-"""The stage: onsets inside the travel for any demand, a return nobody feels, and the rider's head taken into account."""
+"""The stage: onsets inside the travel for any demand, a return below the threshold.
+
+The rider's head is taken into account.
+"""
 
 from dataclasses import replace
 from math import sin
@@ -8,7 +11,7 @@ import pytest
 
 from atlas_cueing.cueing import StageParameters
 from atlas_cueing.cueing.stage.high_pass import HighPass
-from atlas_cueing.cueing.stage.mpc import HorizonAxis
+from atlas_cueing.cueing.stage.mpc import MpcAxis
 from atlas_cueing.cueing.stage.stage_cueing import StageCueing
 from atlas_cueing.rotation import IDENTITY, ZERO, Vec3, conjugate, exp, flip, rotate, scale
 from atlas_cueing.signals import STANDARD_GRAVITY, StageLimits
@@ -16,13 +19,16 @@ from atlas_cueing.signals import STANDARD_GRAVITY, StageLimits
 LIMITS = StageLimits((1.0, 1.0, 0.75), (1.5, 1.5, 1.2), (6.0, 6.0, 5.0), (60.0, 60.0, 50.0))
 HUGE = StageLimits((1e6,) * 3, (1e6,) * 3, (1e6,) * 3, (1e9,) * 3)
 DTS = [1.0 / 1000.0, 1.0 / 120.0, 1.0 / 20.0]
-ONSET = StageParameters(onset=(2.0, 2.0, 2.0), horizon=None)
+ONSET = StageParameters(onset=(2.0, 2.0, 2.0), planner="onset")
 PLANNERS = pytest.mark.parametrize("planned", [ONSET, StageParameters()], ids=["onset", "horizon"])
 
 
 @PLANNERS
 def test_no_more_than_the_parameters_travel_is_used_on_each_axis(planned: StageParameters) -> None:
-    """And no less: the cap is used up to its share, axis by axis, and the platform's own travel where that is smaller."""
+    """The travel is used up to its share, axis by axis.
+
+    The platform's own counts where it is smaller.
+    """
     parameters = replace(planned, travel=(0.2, 9.0, 0.4))
     cueing, most = StageCueing(0.01, parameters, LIMITS, ZERO), np.zeros(3)
     cueing.step(IDENTITY, ZERO, (0.0, 0.0, -STANDARD_GRAVITY))
@@ -95,7 +101,10 @@ def test_the_demand_is_in_base_axes_with_its_gain() -> None:
 @PLANNERS
 @pytest.mark.parametrize("head", [(0.4, -0.2, 0.7), (0.0, 0.0, 1.0)])
 def test_the_head_s_own_acceleration_is_subtracted(planned: StageParameters, head: Vec3) -> None:
-    """The force asked for is just what the turning makes, from second differences of the head's path: the stage stays."""
+    """The stage stays when the force is what the turning makes.
+
+    That is from second differences of the head's path.
+    """
     dt, n = 1e-3, 3000
     t = dt * np.arange(n)
     angle, rate = 0.8 * t + 0.2 * np.sin(3.0 * t), 0.8 + 0.6 * np.cos(3.0 * t)
@@ -117,7 +126,7 @@ def test_the_head_s_own_acceleration_is_subtracted(planned: StageParameters, hea
 
 
 def test_each_axis_has_its_planner_and_its_limits() -> None:
-    for planned, kind in ((ONSET, HighPass), (StageParameters(), HorizonAxis)):
+    for planned, kind in ((ONSET, HighPass), (StageParameters(), MpcAxis)):
         assert all(
             isinstance(axis, kind) for axis in StageCueing(0.01, planned, LIMITS, ZERO)._axes
         )

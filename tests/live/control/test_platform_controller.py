@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from atlas_cueing.cueing import CAUSAL_METHODS
 from atlas_cueing.errors import PlanningError
 from atlas_cueing.live.control.platform_controller import command_of, no_vehicle, standing
 from atlas_cueing.live.control.state_machine import Event, State
@@ -13,7 +14,6 @@ from atlas_cueing.signals import Cue, Motion, VehicleState
 from ..rig import ROUNDING, Rig
 
 QUICK = ("cueing.stage.planner=onset",)
-METHODS = ["blend", "attitude", "force", "classical"]
 
 
 def columns(rig: Rig, part: str, name: str) -> np.ndarray:
@@ -43,7 +43,7 @@ def test_an_event_without_a_way_changes_nothing() -> None:
     assert not rig.ride.moving  # it has not set out yet
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", CAUSAL_METHODS)
 @pytest.mark.parametrize("platform", ["atlas-2.9m", "atlas-tabletop", "atlas-1.5m"])
 def test_there_and_back_with_every_method(method: str, platform: str) -> None:
     """Engaged to a spinning vehicle, held, resumed, parked, engaged again: in time and in all limits."""

@@ -1,13 +1,13 @@
-"""A plan, played tick by tick."""
+"""The cues of a plan, tick by tick."""
 
 import numpy as np
 
 from ...errors import InputError
+from ...rotations import Array
 from ...signals import Cue, VehicleState
-from .spline import Array
 
 
-class Preview:
+class PlannedCues:
     """Cues planned beforehand, given one after the other as `Cueing` gives its own."""
 
     def __init__(
@@ -18,7 +18,7 @@ class Preview:
         self._tick = 0
 
     def step(self, vehicle: VehicleState) -> Cue:
-        """Cue for this vehicle state, the next of those that were planned for.
+        """Give the cue for the next of the vehicle states that were planned for.
 
         Raises InputError for any other state.
         """

@@ -1,18 +1,20 @@
-"""A plan played tick by tick."""
+"""The cues of a plan, tick by tick."""
 
 import numpy as np
 import pytest
 
 from atlas_cueing.cueing import CueSource
-from atlas_cueing.cueing.preview import Preview
+from atlas_cueing.cueing.preview.planned_cues import PlannedCues
 from atlas_cueing.errors import InputError
 from atlas_cueing.rotation import IDENTITY, ZERO
 from atlas_cueing.signals import Cue, VehicleState
 
 
-def made() -> Preview:
+def made() -> PlannedCues:
     rows = np.arange(24.0).reshape(2, 12)
-    return Preview(np.array([0.0, 0.1]), np.eye(4)[:2], *(rows[:, i : i + 3] for i in (0, 3, 6, 9)))
+    return PlannedCues(
+        np.array([0.0, 0.1]), np.eye(4)[:2], *(rows[:, i : i + 3] for i in (0, 3, 6, 9))
+    )
 
 
 def state(time: float) -> VehicleState:
