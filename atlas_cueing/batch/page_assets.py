@@ -1,4 +1,4 @@
-"""Style and behaviour of the overview: what the browser is given beside the figures."""
+"""Style sheet and script of the overview."""
 
 STYLE = """
 :root{color-scheme:light dark;--grey:light-dark(#667380,#98a4b0);--line:#8883;--bar:light-dark(#8fbdec,#356596)}

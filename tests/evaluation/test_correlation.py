@@ -5,10 +5,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from atlas_cueing.evaluation.correlation import MOST, WINDOW, Correlation, correlation
+from atlas_cueing.evaluation.correlation import MOST, WINDOW, Correlation
 
 DT = 0.008
 T = np.arange(5000) * DT
+
+
+def correlation(
+    reference: np.ndarray, delayed: np.ndarray, dt: float, smallest: float = 0.0
+) -> tuple[float, float]:
+    signals = Correlation(dt, smallest)
+    signals.add(reference, delayed)
+    return signals.peak()
 
 
 def wave(t: np.ndarray) -> np.ndarray:

@@ -11,7 +11,6 @@ from atlas_cueing.evaluation.cues import (
     GAIN_BAND,
     RATE_THRESHOLD,
     CueCounter,
-    cue_shares,
 )
 
 T = 0.17
@@ -20,6 +19,12 @@ NONE, MISSING, FALSE, SCALED = (
     {"missing": float(kind == 0), "false": float(kind == 1), "scaled": float(kind == 2)}
     for kind in (-1, 0, 1, 2)
 )
+
+
+def cue_shares(vehicle: np.ndarray, platform: np.ndarray, threshold: float) -> dict[str, float]:
+    cues = CueCounter(threshold)
+    cues.add(vehicle, platform)
+    return cues.shares()
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
