@@ -5,7 +5,7 @@ It opens from disk, without any network.
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..atomic_file import write_page as write_file
 from ..errors import MissingExtraError, OutputError
@@ -21,13 +21,17 @@ if TYPE_CHECKING:
 
 _ZOOM = "drag to zoom, double-click to see all"
 _STYLE = """
-body { font-family: system-ui, sans-serif; margin: 1.2em auto; max-width: 1500px; padding: 0 1em; color: #1b2733; }
+body { font-family: system-ui, sans-serif; margin: 1.2em auto; max-width: 1500px; padding: 0 1em;
+color: #1b2733; }
 h1 { font-size: 1.5em; margin: 0.2em 0; } h2 { font-size: 1.15em; margin: 1.4em 0 0.3em; }
-.verdict { display: inline-block; padding: 0.15em 0.7em; border-radius: 0.4em; color: white; background: #c00000; }
+.verdict { display: inline-block; padding: 0.15em 0.7em; border-radius: 0.4em; color: white;
+background: #c00000; }
 .verdict.clean { background: #2e7d32; }
 .columns { display: flex; flex-wrap: wrap; gap: 0 3em; align-items: flex-start; }
-table { border-collapse: collapse; margin: 0.5em 0; } td, th { padding: 0.1em 0.9em 0.1em 0; text-align: left; }
-td.number, th { text-align: right; } td.number { font-variant-numeric: tabular-nums; } td:first-child { color: #5a6a7a; }
+table { border-collapse: collapse; margin: 0.5em 0; }
+td, th { padding: 0.1em 0.9em 0.1em 0; text-align: left; }
+td.number, th { text-align: right; } td.number { font-variant-numeric: tabular-nums; }
+td:first-child { color: #5a6a7a; }
 li.finding { color: #c00000; } details { margin: 0.5em 0; }
 """
 
@@ -38,10 +42,11 @@ def write_page(found: Review, file: str | Path) -> None:
     Raises MissingExtraError without plotly and OutputError when the file cannot be written; an old
     one is kept then.
     """
-    plots = _plots()
+    _check_plotly()
     from .plots.limit_bars import limit_bars
     from .plots.space import in_space
     from .plots.spectra import spectra
+    from .plots.time_series import over_time
 
     run = found.run
     sections = [
@@ -49,7 +54,7 @@ def write_page(found: Review, file: str | Path) -> None:
         ("", _findings(found)),
         (
             f"Over time, in the axes of the vehicle's body and of the cabin: {_ZOOM}",
-            plots.over_time(found),
+            over_time(found),
         ),
         (
             (
@@ -68,7 +73,9 @@ def write_page(found: Review, file: str | Path) -> None:
 
 def write_comparison(comparison: Comparison, file: str | Path) -> None:
     """Write the runs side by side into `file`. Raises as `write_page`."""
-    plots = _plots()
+    _check_plotly()
+    from .plots.overlays import overlays
+
     runs = [each.run for each in comparison.reviews]
     heads = "".join(
         f"<tr><td>{html_text(name)}</td><td>{_verdict(each)}</td>"
@@ -84,7 +91,7 @@ def write_comparison(comparison: Comparison, file: str | Path) -> None:
             ),
         ),
         ("Rider less pilot, net turns, and what was limited", _headlines(comparison)),
-        (f"Over time: {_ZOOM}", plots.overlays(comparison.names, runs)),
+        (f"Over time: {_ZOOM}", overlays(comparison.names, runs)),
         (
             "Every figure",
             _every_metric(comparison.names, [each.metrics for each in comparison.reviews]),
@@ -93,15 +100,14 @@ def write_comparison(comparison: Comparison, file: str | Path) -> None:
     _write(file, " against ".join(comparison.names), sections)
 
 
-def _plots() -> Any:
-    """Import the plots, which need plotly: an extra that takes half a second to load."""
+def _check_plotly() -> None:
+    """Import plotly, which takes half a second. Raises MissingExtraError without it."""
     try:
-        from .plots import time_series as plots
+        import plotly.graph_objects  # noqa: F401
     except ModuleNotFoundError as error:
         if (error.name or "").partition(".")[0] != "plotly":
             raise
         raise MissingExtraError("an HTML page", "plotly", "report") from error
-    return plots
 
 
 def _punctuality(found: Review) -> "list[tuple[str, Plot]]":

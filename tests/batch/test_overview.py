@@ -113,8 +113,11 @@ def test_what_failed_stands_apart_with_its_reasons() -> None:
     assert len(good) == 1
     assert heads == ["run", "result", "reason", "links"]
     assert [row[1:3] for row in bad] == [
-        ["crashed", "no"], ["vehicle_failed", "it <fell>"], ["vehicle_failed", "it <fell>"], ["not_flown", ""],
-    ]  # fmt: skip
+        ["crashed", "no"],
+        ["vehicle_failed", "it <fell>"],
+        ["vehicle_failed", "it <fell>"],
+        ["not_flown", ""],
+    ]
     assert "Not flown to the end: 1 crashed, 2 vehicle failed, 1 not flown" in text
     assert "<table>" not in page(FAILED).split("<h2>Not")[0]  # none flew: no empty table
 

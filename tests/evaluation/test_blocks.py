@@ -86,7 +86,7 @@ def test_a_figure_may_be_asked_for_on_the_way(name: str) -> None:
 
 @every
 def test_rows_and_columns_give_the_same_to_the_last_bit(name: str) -> None:
-    """A log that is read whole has its messages in rows, one that is read in blocks has them in columns."""
+    """A log read whole has its messages in rows, one read in blocks has them in columns."""
     flight = any_flight(20_000, 7)
     rows, columns = (
         RunColumns(**{field.name: order(getattr(flight, field.name)) for field in fields(flight)})
@@ -110,7 +110,7 @@ def test_no_ticks_at_all(name: str) -> None:
 
 
 def test_what_is_held_grows_by_quantiles_only() -> None:
-    """Eight columns in single precision and a mark a tick, and the slack of memory that grows in place.
+    """Eight columns in single precision, a mark a tick, and the slack of growing memory.
 
     Looked at after whole pieces of the correlations, which wait for 8192 - 2 * 50 ticks at 100 Hz:
     seven of these blocks.

@@ -42,7 +42,7 @@ def test_nodding_couples_with_roll_and_yaw_only(
 
 @given(rates)
 def test_against_the_rate_of_a_nodding_head(w: np.ndarray) -> None:
-    """The cabin's steady rate in the axes of a head that nods, differenced in time: what the canals get of it."""
+    """The cabin's steady rate in the axes of a head that nods, differenced in time."""
     h = 1e-4
     seen = [Rotation.from_rotvec([0.0, NOD * t, 0.0]).inv().apply(w) for t in (-h, h)]
     figures = gathered(Coriolis(), still(10, felt_w=w))

@@ -113,7 +113,7 @@ def test_in_pieces_it_is_pearsons_correlation_over_the_overlap_too(
 @pytest.mark.parametrize("pieces", PIECES, ids=str)
 @pytest.mark.parametrize("gain", [0.1, -1.0 / 3.0, 7.3])
 def test_a_long_ramp_in_pieces_is_not_late(pieces: list[int], gain: float) -> None:
-    """The first piece says little about the mean of the whole: what cancels must not make one shift the best."""
+    """The first piece says little about the mean: rounding must not choose a shift."""
     t = np.arange(20_000) * DT
     peak, delay = in_pieces(t, gain * t + 1e3, pieces)
     assert peak == pytest.approx(np.sign(gain))

@@ -1,4 +1,4 @@
-"""Errors of force, direction, rate and attitude on flights whose errors are known in closed form."""
+"""Errors of force, direction, rate and attitude on flights of known errors."""
 
 import numpy as np
 import pytest
@@ -93,7 +93,7 @@ def test_the_heading_at_the_start_is_no_attitude_error() -> None:
 
 
 def test_attitude_error_against_scipy_over_many_pieces() -> None:
-    """Random attitudes of a long flight, heading at the start and change of axes by scipy's rotations."""
+    """Random attitudes of a long flight; heading and axes by scipy's rotations."""
     count = 40_000
     vehicle, cabin = (Rotation.random(count, rng=np.random.default_rng(k)) for k in (1, 2))
     heading = Rotation.from_euler("Z", vehicle[0].as_euler("ZYX")[0])
@@ -115,7 +115,7 @@ def test_a_turn_to_the_right_is_negative_about_the_platforms_vertical() -> None:
 
 
 def test_extra_rate_is_counted_while_the_wheels_can_follow() -> None:
-    """A slow turn of 0.05 rad/s all the time, and a wheel limit that costs 1 rad/s for a tenth of it."""
+    """A slow turn of 0.05 rad/s, and a wheel limit that costs 1 rad/s for a tenth of it."""
     felt_w, limited = column(np.full(N, 0.05), 2), np.zeros((N, 2))
     felt_w[:100, 0], limited[:100, 0], limited[500:, 1] = 1.0, 1.0, 1.0
     figures = gathered(Deviation(), still(N, felt_w=felt_w, limited=limited))

@@ -40,7 +40,7 @@ def test_a_declaration_is_whole(name: str) -> None:
     metric = DECLARED[name]
     assert metric.name == name
     assert "_" not in metric.title
-    assert metric.definition[0] in "9" or metric.definition[0].isupper()
+    assert metric.definition[0] == "9" or metric.definition[0].isupper()
     assert metric.definition.endswith(".")
     assert "rad" not in metric.unit.shown or name.startswith("wheel_")
     assert all(
