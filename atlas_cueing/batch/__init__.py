@@ -15,9 +15,10 @@ from .overview import overview
 from .plan import PlannedRun, plan
 from .pool import fly_here
 from .store import ResultStore, check_results, open_store
-from .table import csv_of, metric_names, ordered, rows
+from .table import METRIC_COLUMNS, csv_of, ordered, rows
 
 __all__ = [
+    "METRIC_COLUMNS",
     "Fly",
     "JobResult",
     "Outcome",
@@ -28,7 +29,6 @@ __all__ = [
     "csv_of",
     "fly_batch",
     "fly_here",
-    "metric_names",
     "missing",
     "on_cluster",
     "open_store",

@@ -1,14 +1,13 @@
 """All runs of a batch on one page for a browser, without anything from elsewhere."""
 
 from collections import Counter
-from collections.abc import Collection, Mapping, Sequence
-from math import isfinite
-from typing import Any
-from urllib.parse import quote
+from collections.abc import Collection, Sequence
+from dataclasses import replace
 
 from ..atomic_file import PAGE_BEGINS
 from ..printable import html_text
-from .heading import Heading, length_of
+from .column import Column
+from .html_table import html_table, value_range
 from .page_assets import SCRIPT, STYLE
 from .picture import parameters, picture
 from .table import NOT_FLOWN, Row
@@ -19,9 +18,6 @@ _OWN = {
     "platform.preset": "platform",
     "cueing.method": "method",
 }
-_TEXTS = ("vehicle", "method", "platform", "result", "reason")
-_MANY = 10  # columns; with more the letters are smaller
-_Heads = Mapping[str, Heading]
 
 
 def overview(
@@ -31,12 +27,15 @@ def overview(
     title: str,
     files: Collection[str],
 ) -> str:
-    """The page: totals, a picture for a sweep of two parameters, a row for each run of `table`, and why others failed.
+    """The page: totals, a heat map of a sweep of two parameters, and tables of all runs.
 
-    settings: the swept keys, shown where they differ; metrics: the figures shown, of which the
-    first, that `table` is sorted by, is also in the picture; files: what there is beside the page.
-    Every run links to its log, its record and, where there is one, its review (`<run id>.html`).
-    Figures are in units for people; a head's tooltip is the name of its metric or key.
+    One table has the runs that flew to their end, the other the others with their reasons.
+
+    settings: the swept keys, shown where they differ; metrics: names of the metrics shown, of which
+    the first, by which `table` is sorted, is also in the heat map; files: names of the files beside
+    the page. Every run links to its log, its record and, where there is one, its review (`<run
+    id>.html`). Angles are in degrees and shares in percent; a head's tooltip is the name of its
+    metric or key, and the metric's definition.
     """
     flown, failed = (
         [row for row in table if (row["result"] == "ok") == ok] for ok in (True, False)
@@ -65,7 +64,7 @@ def _totals(table: Sequence[Row]) -> str:
     shown += [("not flown", str(left), "bad")] if left else []
     shown += [
         ("violations", str(violations), "bad" if violations else ""),
-        ("of flight", length_of(flight), ""),
+        ("of flight", _length(flight), ""),
     ]
     boxes = (
         f'<div class="{mood}"><b>{value}</b><span>{name}</span></div>'
@@ -74,8 +73,15 @@ def _totals(table: Sequence[Row]) -> str:
     return f'<div class="totals">{"".join(boxes)}</div>'
 
 
+def _length(time: float) -> str:
+    """A time in s as hours, minutes or seconds, so that the number is small."""
+    if time >= 3600.0:
+        return f"{time / 3600.0:.1f} h"
+    return f"{time / 60.0:.1f} min" if time >= 60.0 else f"{time:.1f} s"
+
+
 def _picture(table: Sequence[Row], varied: list[str], metric: str) -> str:
-    """Names are easier to read beside the picture than below it."""
+    """The heat map of a sweep of two keys; names are easier to read beside it than below it."""
     if len(varied) != 2:
         return ""
     names = {key: {row[key] for row in table if isinstance(row.get(key), str)} for key in varied}
@@ -91,36 +97,33 @@ def _flown(
         return ""
     keys, same = _columns(rows, settings)
     counted = ["violations"] if any(row.get("violations") for row in rows) else []
-    lengths = {Heading.of_metric("duration_s").text(row.get("duration_s")) for row in rows}
+    lengths = {Column.of_metric("duration_s").cell(row.get("duration_s")) for row in rows}
     counted += ["duration_s"] if len(lengths) > 1 else []
     shown = dict.fromkeys([*metrics, *counted])
     heads = {
-        "run": Heading("run"),
+        "run": Column.of_field("run"),
         **_key_heads(keys),
-        **{name: Heading.of_metric(name) for name in shown},
+        **{name: Column.of_metric(name) for name in shown},
     }
-    scales = {name: _range(rows, name) for name in metrics}
-    body = "\n".join(_line(row, heads, scales, files) for row in rows)
+    scales = {name: value_range(rows, name) for name in metrics}
+    table = html_table(rows, heads, files, scales, sorted_by=metrics[0])
     note = (
         f"{same}Sorted by {heads[metrics[0]].words}; a click on a head sorts by that column. The"
         " least of a figure is bold."
     )
-    return (
-        "<h2>Flown to the"
-        f" end</h2><p>{html_text(note)}</p>{_table(heads, body, sorted_by=metrics[0])}"
-    )
+    return f"<h2>Flown to the end</h2><p>{html_text(note)}</p>{table}"
 
 
 def _failed(rows: Sequence[Row], settings: Sequence[str], files: Collection[str]) -> str:
-    """The table of those that did not, with their reasons, those of one kind together."""
+    """The table of the runs that did not, with their reasons, equal ones together."""
     if not rows:
         return ""
     keys, same = _columns(rows, settings)
     heads = {
-        "run": Heading("run"),
+        "run": Column.of_field("run"),
         **_key_heads(keys),
-        "result": Heading("result"),
-        "reason": Heading("reason"),
+        "result": Column.of_field("result"),
+        "reason": Column.of_field("reason"),
     }
     ordered = sorted(
         rows,
@@ -130,109 +133,35 @@ def _failed(rows: Sequence[Row], settings: Sequence[str], files: Collection[str]
             str(row.get("reason", "")),
         ),
     )
-    body = "\n".join(_line(row, heads, {}, files) for row in ordered)
     counts = Counter(str(row["result"]).replace("_", " ") for row in ordered)
-    told = ", ".join(f"{count} {result}" for result, count in counts.items())
-    return (
-        "<h2>Not flown to the end:"
-        f" {html_text(told)}</h2><p>{html_text(same)}</p>{_table(heads, body)}"
-    )
+    results = ", ".join(f"{count} {result}" for result, count in counts.items())
+    table = html_table(ordered, heads, files)
+    return f"<h2>Not flown to the end: {html_text(results)}</h2><p>{html_text(same)}</p>{table}"
 
 
 def _columns(rows: Sequence[Row], settings: Sequence[str]) -> tuple[list[str], str]:
-    """Columns that tell the runs apart beside scenario and method, and a sentence on what all of them share."""
+    """Choose the keys that are shown, beside scenario and method.
+
+    Gives the keys in which the runs differ, and a sentence about the others.
+    """
     wanted = list(
         dict.fromkeys([*(_OWN.get(key, key) for key in settings), "vehicle", "method", "platform"])
     )
     differ = parameters(rows, wanted)
     same = [
-        f"{Heading.of_key(key).words} {rows[0][key]}"
+        f"{Column.of_key(key).words} {rows[0][key]}"
         for key in wanted
         if key not in differ and rows[0].get(key, "") != ""
     ]
-    told = f"{'Same in all: ' if len(rows) > 1 else ''}{', '.join(same)}. " if same else ""
-    return [key for key in differ if key != "method" or "cueing.method" in settings], told
+    sentence = f"{'Same in all: ' if len(rows) > 1 else ''}{', '.join(same)}. " if same else ""
+    return [key for key in differ if key != "method" or "cueing.method" in settings], sentence
 
 
-def _key_heads(keys: Sequence[str]) -> dict[str, Heading]:
-    """Short heads; the whole key where two would be the same."""
-    short = {key: Heading.of_key(key) for key in keys}
+def _key_heads(keys: Sequence[str]) -> dict[str, Column]:
+    """Columns with short heads; the whole key where two heads would be the same."""
+    short = {key: Column.of_key(key) for key in keys}
     often = Counter(head.words for head in short.values())
     return {
-        key: head if often[head.words] == 1 else Heading(key, head.unit)
+        key: head if often[head.words] == 1 else replace(head, words=key)
         for key, head in short.items()
     }
-
-
-def _range(rows: Sequence[Row], name: str) -> tuple[float, float]:
-    """Least and largest of a column's numbers; zeros for none."""
-    found = [row[name] for row in rows if _number(row.get(name))]
-    return min(found, default=0.0), max(found, default=0.0)
-
-
-def _number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)
-
-
-def _table(heads: _Heads, body: str, sorted_by: str = "") -> str:
-    cells = "".join(
-        f'<th class="{_kind(name)}"'
-        f' title="{html_text(name)}"{" aria-sort=ascending" if name == sorted_by else ""}>'
-        f"<span>{html_text(head.words)}</span>{f'<small>{html_text(head.unit)}</small>' if head.unit else ''}</th>"
-        for name, head in heads.items()
-    )
-    dense = ' class="dense"' if len(heads) > _MANY else ""
-    cells += '<th class="text"><span>links</span></th>'
-    return f"<table{dense}><thead><tr>{cells}</tr></thead><tbody>\n{body}\n</tbody></table>"
-
-
-def _line(
-    row: Row, heads: _Heads, scales: Mapping[str, tuple[float, float]], files: Collection[str]
-) -> str:
-    bad = "" if row["result"] == "ok" and not row.get("violations") else ' class="bad"'
-    cells = "".join(
-        _run(row) if name == "run" else _cell(row, name, head, scales)
-        for name, head in heads.items()
-    )
-    return f'<tr{bad}>{cells}<td class="text">{_links(row, files)}</td></tr>'
-
-
-def _run(row: Row) -> str:
-    """Scenario and method; of the id only its end, for the rest of it says the same."""
-    name = html_text(f"{row['scenario']} · {row['method']}")
-    run, end = html_text(row["run"]), html_text(str(row["run"]).rpartition("-")[2])
-    return f'<td class="run" data-v="{name}" title="{run}">{name}<small>{end}</small></td>'
-
-
-def _cell(row: Row, name: str, head: Heading, scales: Mapping[str, tuple[float, float]]) -> str:
-    value = row.get(name, "")
-    known = not isinstance(value, float) or isfinite(value)
-    kind, style = "figure" if name in scales else _kind(name), ""
-    if name in scales and _number(value):
-        least, most = scales[name]
-        style = (
-            f' style="--part:{100.0 * value / most:.0f}%"'
-            if 0.0 <= value <= most and most > 0.0
-            else ""
-        )
-        kind += " least" if value == least < most else ""
-    shown = html_text(head.text(value)).replace("_", "_<wbr>")
-    return (
-        f'<td class="{kind}" data-v="{html_text(str(value)) if known else ""}"{style}>{shown}</td>'
-    )
-
-
-def _links(row: Row, files: Collection[str]) -> str:
-    named = {
-        "review": f"{row['run']}.html",
-        "log": row.get("log", ""),
-        "record": f"{row['run']}.json",
-    }
-    return " ".join(
-        f'<a href="{quote(file)}">{title}</a>' for title, file in named.items() if file in files
-    )
-
-
-def _kind(name: str) -> str:
-    """Class of a column; names stand to the left."""
-    return f"text {name}" if name in _TEXTS else name if name in ("run", "violations") else ""

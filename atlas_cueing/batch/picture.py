@@ -1,4 +1,9 @@
-"""A metric against the two parameters of a sweep, as SVG."""
+"""A metric against the two parameters of a sweep, as SVG.
+
+Drawn here and not by plotly: plotly would put 5 MB of script into the page of every batch, and
+nothing where the extra `report` is missing. This is a few kilobytes, needs no extra, and follows
+the reader's light or dark colours.
+"""
 
 from collections.abc import Sequence
 from math import ceil, inf, isnan
@@ -6,7 +11,7 @@ from statistics import fmean
 from typing import Any
 
 from ..printable import html_text
-from .heading import Heading
+from .column import Column
 from .table import Row
 
 # px; of the plot at most, and the room for its axes
@@ -20,19 +25,19 @@ _COLOURS = ((68, 1, 84), (33, 145, 140), (253, 231, 37))
 
 
 def parameters(table: Sequence[Row], settings: Sequence[str]) -> list[str]:
-    """Those of the swept keys that have more than one value."""
+    """The swept keys that have more than one value in the table."""
     return [key for key in settings if len({repr(row.get(key)) for row in table}) > 1]
 
 
 def picture(table: Sequence[Row], x: str, y: str, metric: str) -> str:
-    """SVG of `metric` against columns `x` and `y`.
+    """SVG of the metric against columns `x` and `y`, "" if no run has all three.
 
-    Cells for a grid (the mean where there are several runs), else dots.
+    A grid is drawn as cells, each with the mean of its runs, anything else as dots.
     """
     points = [(row[x], row[y], row[metric]) for row in table if _known(row, x, y, metric)]
     if not points:
         return ""
-    figure = Heading.of_metric(metric)
+    column = Column.of_metric(metric)
     across, up = (
         _Axis([a for a, _, _ in points], _WIDTH),
         _Axis([b for _, b, _ in points], _HEIGHT, _ROW),
@@ -45,10 +50,10 @@ def picture(table: Sequence[Row], x: str, y: str, metric: str) -> str:
     share = {
         at: (mean - least) / (most - least) if most > least else 0.5 for at, mean in means.items()
     }
-    marks = [_mark(across, up, at, figure.text(mean), share[at]) for at, mean in means.items()]
-    title = f"{figure.line}: {figure.text(least)} (dark) to {figure.text(most)} (light)"
+    marks = [_mark(across, up, at, column.cell(mean), share[at]) for at, mean in means.items()]
+    title = f"{column.line}: {column.cell(least)} (dark) to {column.cell(most)} (light)"
     bottom = _TOP + up.length
-    heads = [Heading.of_key(key).line for key in (x, y)]
+    heads = [Column.of_key(key).line for key in (x, y)]
     texts = [
         _text(_LEFT, 18, title, "start", metric),
         _text(_LEFT + _WIDTH / 2, bottom + 40, heads[0], tip=x),
@@ -61,10 +66,13 @@ def picture(table: Sequence[Row], x: str, y: str, metric: str) -> str:
 
 
 class _Axis:
-    """Where a value stands on an axis, px from its origin."""
+    """Places of values on an axis, px from its origin."""
 
     def __init__(self, found: Sequence[Any], most: float, cell: float = inf) -> None:
-        """At most `most` px long, each value of a few at most `cell` px."""
+        """Lay out the values found.
+
+        most: length of the axis at most, px; cell: length for each of a few values at most, px.
+        """
         numbers = all(
             isinstance(value, int | float) and not isinstance(value, bool) for value in found
         )
@@ -86,9 +94,9 @@ class _Axis:
         )
 
     def labels(self, room: float | None = None) -> list[tuple[float, str]]:
-        """Places and texts, as many as have `room` px each.
+        """Places and texts of the values that are written at the axis.
 
-        Without it as many as their own width allows.
+        room: px that each needs along the axis; by default the width of the longest.
         """
         texts = [
             f"{value:.4g}" if isinstance(value, float) else str(value) for value in self._values
@@ -134,6 +142,6 @@ def _colour(share: float) -> str:
 def _text(
     x: float, y: float, text: str, anchor: str = "middle", tip: str = "", fill: str = "currentColor"
 ) -> str:
-    told = f"<title>{html_text(tip)}</title>" if tip else ""
+    title = f"<title>{html_text(tip)}</title>" if tip else ""
     place = f'x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" font-size="13" fill="{fill}"'
-    return f"<text {place}>{told}{html_text(text)}</text>"
+    return f"<text {place}>{title}{html_text(text)}</text>"

@@ -6,37 +6,30 @@ from io import StringIO
 from math import inf, isnan
 from typing import Any, TypeAlias
 
-import numpy as np
-
-from ..evaluation import RunColumns, metrics
-from ..rotations import Array
+from ..evaluation import DECLARED, Metric
+from ..evaluation.units import COUNT, DURATION
 from .fly_batch import Outcome
 
 Row: TypeAlias = Mapping[str, Any]  # column to value; a column that a run does not have is missing
 
 NOT_FLOWN = "not_flown"
-_OF_A_RUN = ("ticks", "duration_s", "wall_s", "violations")
-
-
-class _Nothing:
-    """The log of no flight at all."""
-
-    def column(self, topic: str, field: str) -> Array:  # noqa: ARG002
-        """No values, whatever the field."""
-        return np.zeros(0)
-
-    def vector(self, topic: str, name: str) -> Array:  # noqa: ARG002
-        """No rows, of the width that the name asks for."""
-        return np.zeros((0, 4 if name.startswith("q_") else 3))
-
-
-def metric_names() -> tuple[str, ...]:
-    """What every run that flew has, whatever it flew."""
-    return tuple(dict.fromkeys((*metrics(RunColumns.of(_Nothing())), *_OF_A_RUN)))
+_OF_A_RUN = (
+    Metric("wall", DURATION, "Time that the computation of the run took."),
+    Metric("violations", COUNT, "Limits that the run exceeded."),
+)
+METRIC_COLUMNS: Mapping[str, Metric] = {
+    **DECLARED,
+    **{metric.name: metric for metric in _OF_A_RUN},
+}
+"""Columns by which a table can be sorted, by name."""
 
 
 def rows(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
-    """A row for each run: id, file, scenario, vehicle, method, platform, what its sweep set, result, and all figures."""
+    """Make a row for each run.
+
+    It has id, file, scenario, vehicle, method, platform, the values that its sweep set, result, and
+    all figures.
+    """
     return [_row(outcome) for outcome in outcomes]
 
 
@@ -66,9 +59,9 @@ def _row(outcome: Outcome) -> dict[str, Any]:
 
 
 def ordered(table: Sequence[Row], metric: str) -> list[Row]:
-    """Rows by a metric, the smallest first.
+    """Sort the rows by a metric, the smallest first.
 
-    Then those that failed, whose figures are of a part of the flight, likewise.
+    Runs that failed come last, likewise sorted: their figures are of a part of the flight.
     """
     return sorted(table, key=lambda row: (row["result"] != "ok", _rank(row.get(metric))))
 
@@ -79,12 +72,12 @@ def _rank(value: Any) -> float:
 
 
 def columns(table: Sequence[Row]) -> list[str]:
-    """All columns, in the order in which they first appear."""
+    """Names of all columns, in the order in which they first appear."""
     return list(dict.fromkeys(name for row in table for name in row))
 
 
 def csv_of(table: Sequence[Row]) -> str:
-    """The table as CSV, numbers in full; a list is written as Python would."""
+    """The table as CSV, with all digits of numbers, and lists in the syntax of Python."""
     text = StringIO(newline="")
     writer = csv.DictWriter(text, columns(table), restval="", lineterminator="\n")
     writer.writeheader()

@@ -59,13 +59,7 @@ A file with a [sweep] table stands for many runs:
   cueing.align_rate_deg_s = { low = 0.5, high = 10.0 }
 """
 
-SHOWN_METRICS = (
-    "direction_rms_rad",
-    "force_rms_m_s2",
-    "rate_rms_rad_s",
-    "wheels_limited_share",
-    "stage_limited_share",
-)
+SORTED_BY = "direction_rms_rad"
 _SHOWN_NAMES = 5  # metrics that a wrong --sort is answered with
 _SHOWN_FINDINGS = 20  # lines on stderr; the table has all
 
@@ -102,7 +96,7 @@ def batch_command(
     ] = None,
     sort: Annotated[
         str, typer.Option(metavar="METRIC", help="What the table is sorted by.")
-    ] = SHOWN_METRICS[0],
+    ] = SORTED_BY,
     top: Annotated[int, typer.Option(min=0, help="Rows of the table that are printed.")] = 20,
     time_limit: Annotated[
         float, typer.Option("--time-limit", min=0.1, help="Wall time for one run, s.")
@@ -199,8 +193,7 @@ def _write(
 
     table = ordered(rows(outcomes), sort)
     results.write(SUMMARY, csv_of(table).encode(errors="replace"))
-    metrics = [sort, *(name for name in SHOWN_METRICS if name != sort)]
-    page = overview(table, _settings(outcomes), metrics, results.title, results.names())
+    page = overview(table, _settings(outcomes), _shown(sort), results.title, results.names())
     results.write(INDEX, page.encode(errors="replace"))
     return table
 
@@ -232,10 +225,17 @@ def _check_plotly() -> None:
 
 
 def _check_metric(name: str) -> None:
-    from ..batch import metric_names
+    from ..batch import METRIC_COLUMNS
 
-    if name not in metric_names():
-        raise InputError(f"--sort {name}: no such metric; {_meant(name, metric_names())}")
+    if name not in METRIC_COLUMNS:
+        raise InputError(f"--sort {name}: no such metric; {_meant(name, list(METRIC_COLUMNS))}")
+
+
+def _shown(sort: str) -> list[str]:
+    """Names of the metrics in the table, the one by which it is sorted first."""
+    from ..evaluation import Shown, shown
+
+    return list(dict.fromkeys([sort, *(metric.name for metric in shown(Shown.BATCH))]))
 
 
 def _meant(word: str, names: Sequence[str]) -> str:
@@ -281,24 +281,23 @@ def _text(
     results: "ResultStore",
 ) -> str:
     """The first rows, counts, and where everything is."""
-    from ..review.figures import Figure
+    from ..batch import METRIC_COLUMNS
     from .text import aligned
 
     swept = [key for key in settings if len({repr(row.get(key)) for row in table}) > 1]
-    names = [sort, *(name for name in SHOWN_METRICS if name != sort)][:4]
-    figures = {name: Figure.of(name) for name in names}
+    metrics = [METRIC_COLUMNS[name] for name in _shown(sort)[:4]]
     heads = [
         "run",
         "result",
         *map(printable, swept),
-        *(figure.title for figure in figures.values()),
+        *(metric.line for metric in metrics),
     ]
     cells = [
         [
             row["run"],
             row["result"],
             *(_short(row.get(key)) for key in swept),
-            *(f.text(row.get(n)) for n, f in figures.items()),
+            *(metric.unit.text(row.get(metric.name)) for metric in metrics),
         ]
         for row in table[:top]
     ]

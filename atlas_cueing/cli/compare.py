@@ -1,4 +1,4 @@
-"""`atlas-cueing compare`: the same flight cued in several ways."""
+"""`atlas-cueing compare`: several logs of one flight side by side."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -68,21 +68,17 @@ def compare_command(
 
 
 def comparison_table(comparison: "Comparison") -> str:
-    """Every metric in a row, every log in a column; angles in degrees, shares in percent."""
-    from ..review.figures import Figure
-
+    """A table with a row for each metric and a column for each log, in units that people read."""
     names = map(printable, comparison.names)
     heads = [
         name if len(name) <= _LONGEST_NAME else f"{name[: _LONGEST_NAME - 2]}.." for name in names
     ]
     rows = [("", heads), ("verdict", [each.verdict for each in comparison.reviews])]
-    for name in comparison.metric_names():
-        figure = Figure.of(name)
-        rows.append(
-            (figure.title, [figure.text(each.metrics.get(name)) for each in comparison.reviews])
-        )
-    width = max(len(shown) for shown, _ in rows)
+    for metric in comparison.metrics():
+        values = [each.metrics.get(metric.name) for each in comparison.reviews]
+        rows.append((metric.line, [metric.unit.text(value) for value in values]))
+    width = max(len(title) for title, _ in rows)
     return "\n".join(
-        f"{shown:<{width}}" + "".join(f"  {cell:>{_LONGEST_NAME}}" for cell in cells)
-        for shown, cells in rows
+        f"{title:<{width}}" + "".join(f"  {cell:>{_LONGEST_NAME}}" for cell in cells)
+        for title, cells in rows
     )

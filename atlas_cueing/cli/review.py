@@ -1,4 +1,4 @@
-"""`atlas-cueing review`: what a log says, and whether to believe it."""
+"""`atlas-cueing review`: a log judged by its own numbers."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -92,20 +92,20 @@ def review_command(
         from ..viewer import play
 
         title = found.run.log.metadata.get("scenario", "") or log.stem
-        play(found.run.platform, found.run.flight, _tell, port=port, title=title)
+        play(found.run.platform, found.run.flight, _say_address, port=port, title=title)
     if not found.clean:
         raise typer.Exit(1)
 
 
-def _tell(url: str) -> None:
+def _say_address(url: str) -> None:
     from .text import say
 
     say(f"view: {url} (end with Ctrl-C)")
 
 
 def review_summary(found: "Review") -> str:
-    """Verdict first, then what it is about, the figures, notes and findings."""
-    from ..review.figures import headlines
+    """The text printed for a review: verdict, run, headline metrics, notes and findings."""
+    from ..evaluation import Shown, shown
     from .text import aligned
 
     metadata = found.run.log.metadata
@@ -128,9 +128,13 @@ def review_summary(found: "Review") -> str:
             ),
         ),
     ]
-    rows = [*head, *headlines(found.metrics), *[("note", note) for note in found.notes]]
-    lines = aligned(
-        [*rows, *[("finding", str(finding)) for finding in found.findings[:_SHOWN]]], ""
-    )
+    headlines = [
+        (metric.line, metric.unit.text(found.metrics[metric.name]))
+        for metric in shown(Shown.HEADLINE)
+        if metric.name in found.metrics
+    ]
+    notes = [("note", note) for note in found.notes]
+    findings = [("finding", str(finding)) for finding in found.findings[:_SHOWN]]
+    lines = aligned([*head, *headlines, *notes, *findings], "")
     left = len(found.findings) - _SHOWN
     return "\n".join([*lines, *([f"and {left} more findings; --json has all"] if left > 0 else [])])

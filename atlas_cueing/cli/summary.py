@@ -1,7 +1,7 @@
-"""What is printed about a run and about a platform."""
+"""The texts printed about a run and about a platform."""
 
 from collections.abc import Mapping
-from math import degrees, isinf
+from math import isinf
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -15,38 +15,21 @@ if TYPE_CHECKING:  # what is shown has been loaded by whoever made it
     from ..run import RunResult
     from ..scenario import Platform
 
-# Rows of the table: title, metric, unit of the metric, unit shown, factor.
-_FELT = (
-    ("specific force", "force", "m_s2", "m/s2", 1.0),
-    ("force direction", "direction", "rad", "deg", degrees(1.0)),
-    ("angular rate", "rate", "rad_s", "deg/s", degrees(1.0)),
-    ("attitude", "attitude", "rad", "deg", degrees(1.0)),
-)
 _PERCENTILES = (
     ("p50", "half within"),
     ("p99", "99 % within"),
     ("p999", "99.9 % within"),
     ("max", "all within"),
 )
-_STATISTICS = ("rms", "p95", "max")
-_LIMITS = (
-    "wheel_speed",
-    "wheel_acceleration",
-    "wheel_jerk",
-    "stage_travel",
-    "stage_speed",
-    "stage_acceleration",
-    "stage_jerk",
-)
 
 
 def run_summary(result: "RunResult") -> str:
-    """Result, what was felt, and the use of the limits, for people; `--json` has every figure."""
+    """The text printed about a run: result, errors, and use of the limits."""
     return "\n".join([*aligned(_head(result), ""), *_evaluation(result)])
 
 
 def end(result: "RunResult | LiveResult") -> None:
-    """Say on stderr what was found. Raises Exit(1) if anything was."""
+    """Print the findings of a run on stderr. Raises Exit(1) if there are any."""
     if not result.clean:
         for finding in ([f"{result.result}: {result.reason}"] if result.reason else []) + list(
             result.evaluation.violations
@@ -56,7 +39,7 @@ def end(result: "RunResult | LiveResult") -> None:
 
 
 def live_summary(result: "LiveResult") -> str:
-    """As `run_summary`, with how punctual the loop was."""
+    """The text printed about a live run: that of `run_summary`, and how punctual the loop was."""
     head = [
         ("result", f"{result.result}  {result.reason}".rstrip()),
         ("log", str(result.log)),
@@ -73,11 +56,11 @@ def live_summary(result: "LiveResult") -> str:
 
 
 def _evaluation(result: "RunResult | LiveResult") -> list[str]:
-    """What was felt, what moved, and the use of the limits."""
+    """Lines about errors, motion, and the use of the limits."""
     metrics, use = result.evaluation.metrics, result.evaluation.limit_use
     return [
-        *_felt_table(metrics),
-        *aligned(_motion_rows(metrics), ""),
+        *_error_table(metrics),
+        *aligned(_phrase_rows(metrics), ""),
         *aligned(_limit_rows(use), ""),
     ]
 
@@ -115,54 +98,55 @@ def _head(result: "RunResult") -> list[tuple[str, str]]:
     ]
 
 
-def _felt_table(metrics: Mapping[str, float]) -> list[str]:
+def _error_table(metrics: Mapping[str, float]) -> list[str]:
     """Felt by the rider less felt by the pilot: one line a quantity, one column a statistic.
 
-    Unknown ones are left out.
+    A quantity without any metric in `metrics` is left out.
     """
+    from ..evaluation import DECLARED, Cell, Metric
+
+    rows: dict[str, dict[str, Metric]] = {}
+    for metric in DECLARED.values():
+        if isinstance(metric.summary, Cell):
+            rows.setdefault(metric.summary.row, {})[metric.summary.column] = metric
+    rows = {
+        title: row
+        for title, row in rows.items()
+        if any(metric.name in metrics for metric in row.values())
+    }
+    columns = list(dict.fromkeys(column for row in rows.values() for column in row))
+    head = f"{'rider less pilot':<23}" + "".join(f"{column:>10}" for column in columns)
     lines = [
-        f"{title:<17}{unit:<6}" + "".join(_cell(metrics, name, s, suffix, k) for s in _STATISTICS)
-        for title, name, suffix, unit, k in _FELT
-        if f"{name}_rms_{suffix}" in metrics
+        f"{title:<17}{row[columns[0]].unit.shown:<6}"
+        + "".join(
+            f"{row[column].unit.text(metrics.get(row[column].name)):>10}" for column in columns
+        )
+        for title, row in rows.items()
     ]
-    head = f"{'rider less pilot':<23}" + "".join(f"{statistic:>10}" for statistic in _STATISTICS)
     return [head, *lines] if lines else []
 
 
-def _cell(
-    metrics: Mapping[str, float], name: str, statistic: str, suffix: str, factor: float
-) -> str:
-    value = metrics.get(f"{name}_{statistic}_{suffix}")
-    return f"{'-':>10}" if value is None else f"{factor * value:>10.3f}"
+def _phrase_rows(metrics: Mapping[str, float]) -> list[tuple[str, str]]:
+    """Lines made of several metrics each, such as the net turns about all axes."""
+    from ..evaluation import DECLARED, Phrase
 
-
-def _motion_rows(metrics: Mapping[str, float]) -> list[tuple[str, str]]:
-    if "cue_lag_max_rad" not in metrics:
-        return []
-    turns = ", ".join(
-        f"{axis} {metrics[f'turns_{axis}']:+.2f}" for axis in ("roll", "pitch", "yaw")
-    )
-    lag = (
-        f"at most {degrees(metrics['cue_lag_max_rad']):.3f} deg,"
-        f" {1e3 * metrics['cue_lag_max_m']:.2f} mm"
-    )
-    limited = (
-        f"wheels {metrics['wheels_limited_share']:.2%}, stage {metrics['stage_limited_share']:.2%}"
-        " of the time"
-    )
-    return [("net turns", turns), ("lag behind cue", lag), ("limited", limited)]
+    rows: dict[str, list[str]] = {}
+    for name, metric in DECLARED.items():
+        if isinstance(metric.summary, Phrase) and name in metrics:
+            phrase = metric.summary
+            rows.setdefault(phrase.row, []).append(
+                phrase.text.format(phrase.factor * metrics[name])
+            )
+    return [(row, ", ".join(parts)) for row, parts in rows.items()]
 
 
 def _limit_rows(use: Mapping[str, float]) -> list[tuple[str, str]]:
     """Largest use of each limit, by logged values or their differences, whichever is larger."""
-    most = {
-        limit: max((u for name, u in use.items() if name.startswith(limit)), default=None)
-        for limit in _LIMITS
-    }
+    from ..evaluation import by_limit
+
     return [
-        (f"{limit.replace('_', ' ')}", f"{100.0 * u:.4f} % of its limit")
-        for limit, u in most.items()
-        if u is not None
+        (limit.replace("_", " "), f"{100.0 * most:.4f} % of its limit")
+        for limit, most in by_limit(use).items()
     ]
 
 
@@ -189,7 +173,7 @@ def kinematics(platform: "Platform") -> dict[str, Any]:
 
 
 def platform_summary(figures: dict[str, Any]) -> str:
-    """The same for people."""
+    """The text printed about a platform, from its figures by `kinematics`."""
     inverse: Mat3 | None = figures["sphere_from_wheels"]
     numbers = [(name, _number(value)) for name, value in figures.items() if not _is_matrix(name)]
     return "\n".join(

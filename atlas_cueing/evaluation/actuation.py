@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..rotations import Array, geodesic, length
-from .run_columns import RunColumns, Tail, gathered
+from .run_columns import RunColumns, Tail
 from .statistics import Magnitudes, Peaks, distance
 
 _LARGEST = {
@@ -19,10 +19,21 @@ _LARGEST = {
 
 
 class Actuation:
-    """Smoothing and actuators, block by block."""
+    """What smoothing did to the cue, and what the actuators had to do.
+
+    - cue_lag_..._rad, cue_lag_..._m: angle and distance from the cue to the motion, rms and
+      maximum;
+    - wheels_limited_share, stage_limited_share: share of the ticks at which smoothing could not
+      give what was asked;
+    - added_..._rms: what smoothing adds to the cue's angular acceleration and stage acceleration
+      while no limit is active (at this tick and its neighbours), 0 where there is no such tick:
+      chatter shows here. The added angular velocity (W) is differenced, backwards; the added stage
+      acceleration (W) is in the log;
+    - wheel_..._max, stage_..._max: largest magnitude of any component.
+    """
 
     def __init__(self) -> None:
-        """Of no ticks yet."""
+        """Begin without ticks."""
         self._angle, self._distance = Magnitudes(), Magnitudes()
         self._limited: Array = np.zeros(2)  # ticks, by wheels and by stage
         self._angular, self._linear = _Unlimited(), _Unlimited()
@@ -30,7 +41,7 @@ class Actuation:
         self._peaks = {name: Peaks() for name in _LARGEST}
 
     def add(self, block: RunColumns) -> None:
-        """Take in the ticks that follow."""
+        """Take in the next ticks."""
         self._angle.add(geodesic(block.cue_q_WS, block.motion_q_WS))
         self._distance.add(distance(block.cue_p_W, block.motion_p_W))
         self._limited += np.sum(block.limited, axis=0)
@@ -42,7 +53,7 @@ class Actuation:
             self._peaks[name].add(getattr(block, column))
 
     def figures(self) -> dict[str, float]:
-        """Those of `effort`."""
+        """Lag, shares, added accelerations and peaks of all blocks so far."""
         wheels, stage = (self._limited / max(self._angle.count, 1)).tolist()
         return {
             "cue_lag_rms_rad": self._angle.rms,
@@ -57,25 +68,10 @@ class Actuation:
         }
 
 
-def effort(flight: RunColumns) -> dict[str, float]:
-    """Figures of smoothing and of the actuators.
-
-    - cue_lag: motion against cue;
-    - wheels_limited_share, stage_limited_share: ticks at which smoothing could not give what was
-        asked;
-    - added_...: what smoothing adds to angular acceleration and stage acceleration while no limit
-      is active (this tick and its neighbours), 0 where there is no such tick: chatter shows here.
-      The added angular velocity is differenced, backwards; the added stage acceleration is in the
-      log;
-    - wheel_..., stage_...: largest magnitudes.
-    """
-    return gathered(Actuation(), flight)
-
-
 class _Unlimited:
-    """Magnitudes at ticks at which no limit is active, nor at their neighbours.
+    """Magnitudes at the ticks at which no limit is active, nor at their neighbours.
 
-    A tick waits for the next one.
+    Whether a tick counts is known when the next one has come, so the last one waits.
     """
 
     def __init__(self) -> None:
@@ -85,9 +81,9 @@ class _Unlimited:
         self._active: NDArray[np.bool_] = np.zeros(1, np.bool_)
 
     def add(self, values: Array, active: NDArray[np.bool_]) -> None:
-        """Values (n,) at ticks at which a limit is `active` (n,) or not.
+        """Take in the next values (n,), and whether a limit is `active` (n,) at their ticks.
 
-        The first tick of all may have no value.
+        The first tick of all may have no value: then there is one value less.
         """
         if len(values) < len(active):
             self._active, active = active[:1], active[1:]
@@ -99,7 +95,7 @@ class _Unlimited:
         self._waiting, self._active = values[-1:], active[-2:]
 
     def rms(self) -> float:
-        """Of all ticks so far, none of which comes after the last."""
+        """Root mean square of all values so far, as if no tick came after the last."""
         free = copy(self._free)
         free.add(self._waiting[: 0 if np.any(self._active) else 1])
         return free.rms

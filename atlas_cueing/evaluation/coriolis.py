@@ -5,7 +5,7 @@ from math import tau
 import numpy as np
 
 from ..rotations import Array
-from .run_columns import RunColumns, Tail, gathered
+from .run_columns import RunColumns, Tail
 from .statistics import Spread
 
 NOD = 1.0
@@ -19,23 +19,34 @@ _AXES = ("roll", "pitch", "yaw")
 
 
 class Coriolis:
-    """Turning, block by block."""
+    """Cross-coupling that turning gives a nodding head, and the cabin's net turns.
+
+    - coriolis_..._rad_s2: magnitude of the angular acceleration w x n that the canals of a rider
+      get, on top of the cabin's, from nodding at the rate n = `NOD` about the cabin's y while the
+      cabin turns at w (cabin FRD). This is what makes head movements in a turning cabin sickening
+      (Guedry & Benson, Aviation, Space and Environmental Medicine 49, 1978). It is
+      NOD * sqrt(wx^2 + wz^2): turning about the nod's own axis is harmless. Rms and 95 % quantile;
+    - vehicle_coriolis_..._rad_s2: the same for a pilot in the vehicle, whom the flight itself asks
+      to bear it;
+    - turns_roll, turns_pitch, turns_yaw: integral of the cabin's rate about its own axes x, y, z
+      (FRD) in turns, with sign, by the trapezoidal rule.
+    """
 
     def __init__(self) -> None:
-        """Of no ticks yet."""
+        """Begin without ticks."""
         self._rider, self._pilot = Spread(), Spread()
         self._turned: Array = np.zeros(3)  # rad
         self._tail = Tail(1)
 
     def add(self, block: RunColumns) -> None:
-        """Take in the ticks that follow."""
+        """Take in the next ticks."""
         self._rider.add(_coriolis(block.felt_w))
         self._pilot.add(_coriolis(block.vehicle_w_B))
         time, w = self._tail.joined(block.time, block.felt_w)
         self._turned += np.einsum("i,ij->j", 0.5 * np.diff(time), w[1:] + w[:-1])
 
     def figures(self) -> dict[str, float]:
-        """Those of `turning`."""
+        """Cross-coupling and net turns of all blocks so far."""
         found: dict[str, float] = {}
         for name, exposure in (("coriolis", self._rider), ("vehicle_coriolis", self._pilot)):
             found |= {
@@ -48,22 +59,7 @@ class Coriolis:
         }
 
 
-def turning(flight: RunColumns) -> dict[str, float]:
-    """Coriolis exposure of rider and pilot, and the cabin's net turns.
-
-    - coriolis_rms_rad_s2, coriolis_p95_rad_s2: magnitude of the angular acceleration w x n that the
-      canals of a rider get, on top of the cabin's, from nodding at the rate n = `NOD` about the
-      cabin's y while the cabin turns at w. This cross-coupling is what makes head movements in a
-      turning cabin sickening (Guedry & Benson, Aviation, Space and Environmental Medicine 49,
-      1978); it is NOD * sqrt(wx^2 + wz^2), turning about the nod's own axis is harmless;
-    - vehicle_coriolis_...: the same for a pilot in the vehicle: what the mission asks for anyway;
-    - turns_roll, turns_pitch, turns_yaw: net turns of the cabin about its own axes,
-        forward-right-down, with sign.
-    """
-    return gathered(Coriolis(), flight)
-
-
 def _coriolis(w: Array) -> Array:
-    """Exposure (n,), rad/s^2, at rates w (n, 3), FRD."""
+    """Cross-coupling (n,), rad/s^2, at rates w (n, 3), rad/s, FRD."""
     exposure: Array = NOD * np.sqrt(w[:, 0] ** 2 + w[:, 2] ** 2)
     return exposure

@@ -1,4 +1,4 @@
-"""Do two signals have the same shape, and how late is one of them?"""
+"""Correlation and delay of two signals: have they the same shape, and how late is one of them?"""
 
 from math import inf
 
@@ -26,7 +26,13 @@ _HALF = 1e-6
 
 
 class Correlation:
-    """`correlation` of two signals that come block by block.
+    """Peak of the normalised cross-correlation of two signals, and the delay at which it stands.
+
+    At every shift within +-`WINDOW` the correlation is Pearson's, with means and variances of the
+    ticks that overlap at that shift, so that a pure delay gives 1 at the delay, however the signal
+    begins and ends. The peak is interpolated by a parabola through three ticks; a delay at the end
+    of the window has no peak inside it. Where shifts fit equally well, the smallest is taken. The
+    delay is positive when `delayed` is late.
 
     Means and variances are from plain sums, of the signals less a constant c each: the mean of
     their first block. With m and s the mean and standard deviation of all n values, the squares of
@@ -35,7 +41,11 @@ class Correlation:
     """
 
     def __init__(self, dt: float, smallest: float = 0.0) -> None:
-        """Of no ticks yet; `dt` and `smallest` as in `correlation`."""
+        """Begin without ticks.
+
+        dt: time from tick to tick, s; smallest: the standard deviation up to which a signal counts
+        as constant, in its own unit.
+        """
         self._dt, self._smallest = dt, smallest
         self._window = min(round(WINDOW / dt - _HALF), MOST) if _step(dt) else 0
         size = 1 << (max(_TRANSFORM, 4 * self._window) - 1).bit_length()
@@ -43,12 +53,16 @@ class Correlation:
         self._products = _Products(self._window, size)
 
     def add(self, reference: Array, delayed: Array) -> None:
-        """Take in the values that follow, (n,) each."""
+        """Take in the next values, (n,) each."""
         if len(reference):
             self._products.add(self._v.centred(reference), self._p.centred(delayed))
 
     def peak(self) -> tuple[float, float]:
-        """That of `correlation`."""
+        """Peak, -1 to 1, and delay, s, of all values so far.
+
+        (0, 0) when one of the signals does not vary, when nothing overlaps, and when a value is not
+        finite.
+        """
         if (
             not _step(self._dt)
             or not self._v.vary(self._smallest)
@@ -64,7 +78,10 @@ class Correlation:
         return min(max(peak, -1.0), 1.0), (shift + offset) * self._dt
 
     def _pearson(self, most: int) -> Array:
-        """Pearson's correlation (2 most + 1,) of v[t] with p[t + shift] over the overlap, for shifts from -most to most."""
+        """Pearson's correlation (2 most + 1,) of v[t] with p[t + shift] over their overlap.
+
+        The shifts are -most to most, ticks.
+        """
         v, p = self._v, self._p
         overlap = v.count - np.abs(np.arange(-most, most + 1))
         sum_v, square_v = v.overlapping(most)
@@ -81,34 +98,15 @@ class Correlation:
         return values
 
 
-def correlation(
-    reference: Array, delayed: Array, dt: float, smallest: float = 0.0
-) -> tuple[float, float]:
-    """Peak of the normalised cross-correlation of two signals (n,) and the delay (s) at which it stands.
-
-    At every shift within +-`WINDOW` the correlation is Pearson's, with means and variances of the
-    ticks that overlap at that shift, so that a pure delay gives 1 at the delay whatever the signal
-    does at its ends. The peak is interpolated by a parabola through three ticks; a delay at the end
-    of the window has no peak inside it. Where shifts fit equally well, the smallest is taken. The
-    delay is positive when `delayed` is late. Ticks are `dt` (s) apart.
-
-    (0, 0) when one of the signals does not vary (its standard deviation is at most `smallest`),
-    when there is no overlap, and when the numbers are none.
-    """
-    signals = Correlation(dt, smallest)
-    signals.add(reference, delayed)
-    return signals.peak()
-
-
 def _step(dt: float) -> bool:
-    """Whether a time is the step of a log whose times are any."""
+    """Whether a time can be a step: times of a damaged log may be any number."""
     return 0.0 < dt < inf
 
 
 class _Sums:
-    """Sums of a signal's values and of their squares, also without some at an end.
+    """Sums of a signal's values and of their squares, also without some values at an end.
 
-    All less the mean of its first block.
+    The values are taken less a constant, the mean of the first block.
     """
 
     def __init__(self, window: int) -> None:
@@ -119,7 +117,7 @@ class _Sums:
         self._tail: Array = np.empty(0)
 
     def centred(self, x: Array) -> Array:
-        """Take in the values (n,) that follow; these values less the constant."""
+        """Take in the next values (n,), and give them less the constant."""
         if not self.count:
             self._centre = float(np.mean(x))
         self._largest = float(max(self._largest, np.max(x), -np.min(x)))
@@ -138,7 +136,7 @@ class _Sums:
 
     @property
     def scatter(self) -> float:
-        """Sum of the squares of the departures from the mean."""
+        """Sum of the squared differences from the mean."""
         return self._square - self._sum * self._sum / self.count
 
     def vary(self, smallest: float) -> bool:
@@ -149,9 +147,9 @@ class _Sums:
         return self.scatter > self.count * least * least
 
     def overlapping(self, most: int) -> tuple[Array, Array]:
-        """Sums of values and of squares, (2 most + 1,).
+        """Sums of values and of squares, (2 most + 1,), over what is left without some values.
 
-        Without the first `most`, ... 2, 1, 0 and the last 1, 2, ... `most`.
+        Left out are the first `most`, ... 2, 1, none, and the last 1, 2, ... `most`.
         """
         head, tail = self._head[:most], self._tail[::-1][:most]
         return _without(self._sum, head, tail), _without(self._square, head * head, tail * tail)
@@ -162,10 +160,10 @@ def _without(total: float, head: Array, tail: Array) -> Array:
 
 
 class _Products:
-    """Sums over t of v[t] p[t + shift] for shifts up to a window either way, by transforms of pieces: n log(piece) operations.
+    """Sums over t of v[t] p[t + shift] for shifts up to a window either way.
 
-    A piece is as long as a transform holds, with a window of p before it and one behind, for which
-    it waits.
+    By Fourier transforms of pieces, in n log(piece) operations. A piece is as long as a transform
+    holds, with a window of p before it and one behind, for which it waits.
     """
 
     def __init__(self, window: int, size: int) -> None:
@@ -175,14 +173,14 @@ class _Products:
         self._spectrum = np.zeros(size // 2 + 1, dtype=np.complex128)
 
     def add(self, v: Array, p: Array) -> None:
-        """Take in the values that follow, (n,) each."""
+        """Take in the next values, (n,) each."""
         self._v, self._p = np.concatenate([self._v, v]), np.concatenate([self._p, p])
         while len(self._v) >= self._step + self._window:
             self._spectrum += self._piece(self._v, self._p)
             self._v, self._p = self._v[self._step :], self._p[self._step :]
 
     def sums(self, most: int) -> Array:
-        """Those for shifts from -most to most, (2 most + 1,), with nothing behind the last values."""
+        """The sums for shifts from -most to most, (2 most + 1,), zeros behind the last values."""
         spectrum, p = self._spectrum.copy(), np.concatenate([self._p, np.zeros(self._window)])
         for start in range(0, len(self._v), self._step):
             spectrum += self._piece(self._v[start:], p[start:])
@@ -190,20 +188,23 @@ class _Products:
         return shifts[self._window - most : self._window + most + 1]
 
     def _piece(self, v: Array, p: Array) -> NDArray[np.complex128]:
-        """Spectrum of the products of the first piece of v with p, which begins a window before it."""
+        """Spectrum of the products of the first piece of v and p, which begins a window earlier."""
         return np.conj(np.fft.rfft(v[: self._step], self._size)) * np.fft.rfft(
             p[: self._size], self._size
         )
 
 
 def _best(values: Array) -> int:
-    """Place of the largest value, nearest to the middle among equals."""
+    """Index of the largest value, the nearest to the middle among equals."""
     best = np.flatnonzero(values >= np.max(values) - _FLAT)
     return int(best[np.argmin(np.abs(best - len(values) // 2))])
 
 
 def _peak(values: Array, k: int) -> tuple[float, float]:
-    """Height of the parabola's vertex through three neighbours, and its distance from the middle one, at most one tick."""
+    """Vertex of the parabola through the value at k and its neighbours.
+
+    Gives its height, and its distance from k in ticks, at most one.
+    """
     if not 0 < k < len(values) - 1:
         return float(values[k]), 0.0
     before, here, after = values[k - 1 : k + 2].tolist()

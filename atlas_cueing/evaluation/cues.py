@@ -1,4 +1,4 @@
-"""Scaled, missing and false cues: what the rider should have felt and did not, and the other way round.
+"""Missing, false and scaled cues: what the rider should have felt and did not, and vice versa.
 
 The kinds are those of Grant & Reid, "Motion Washout Filter Tuning: Rules and Requirements", J.
 Aircraft 34 (1997).
@@ -32,15 +32,22 @@ reciprocal."""
 
 
 class CueCounter:
-    """Cues of one axis, counted block by block."""
+    """Shares of the ticks at which a cue along one axis is missing, false or scaled.
+
+    A cue is there when its magnitude is above the threshold. No tick is of two kinds:
+
+    - missing: the vehicle's cue is there, the platform's is not;
+    - false: the platform's is there, the vehicle's is not, or has the opposite sign;
+    - scaled: both are there, with one sign, and platform over vehicle is outside `GAIN_BAND`.
+    """
 
     def __init__(self, threshold: float) -> None:
-        """Of no ticks yet; `threshold` as in `cue_shares`."""
+        """Begin without ticks; `threshold` is in the unit of the signals."""
         self._threshold = threshold
         self._ticks, self._missing, self._false, self._scaled = 0, 0, 0, 0
 
     def add(self, vehicle: Array, platform: Array) -> None:
-        """Take in the ticks that follow, (n,) each."""
+        """Take in the next ticks (n,) of pilot and rider, as departures from rest."""
         wanted, size = np.abs(vehicle), np.abs(platform)
         asked, given = wanted > self._threshold, size > self._threshold
         alike = asked & given & ((vehicle > 0.0) == (platform > 0.0))
@@ -52,23 +59,6 @@ class CueCounter:
         self._scaled += int(np.count_nonzero(scaled))
 
     def shares(self) -> dict[str, float]:
-        """Those of `cue_shares`."""
+        """Shares, 0 to 1, of all ticks so far, by kind."""
         counts = {"missing": self._missing, "false": self._false, "scaled": self._scaled}
         return {kind: count / max(self._ticks, 1) for kind, count in counts.items()}
-
-
-def cue_shares(vehicle: Array, platform: Array, threshold: float) -> dict[str, float]:
-    """Shares (0 to 1) of the ticks at which a cue is missing, false or scaled.
-
-    No tick is two of them.
-
-    vehicle and platform (n,) are one axis of what the pilot and the rider have, as departures from
-    rest; `threshold` is in their unit. A cue is there when its magnitude is above the threshold.
-
-    - missing: the vehicle's is there, the platform's is not;
-    - false: the platform's is there, the vehicle's is not, or has the opposite sign;
-    - scaled: both are there, with one sign, and platform over vehicle is outside `GAIN_BAND`.
-    """
-    cues = CueCounter(threshold)
-    cues.add(vehicle, platform)
-    return cues.shares()

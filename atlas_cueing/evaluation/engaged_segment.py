@@ -14,7 +14,7 @@ RUNNING = "running"
 
 
 def engaged_segment(flight: RunColumns, changes: Sequence[StateChange]) -> RunColumns:
-    """The longest stretch of a flight in state `running`, or none of it.
+    """The longest stretch of a run in state `running`; without ticks if it was never in it.
 
     A change of state at t counts from the tick at t on, which is the first of the new state.
     """

@@ -9,7 +9,7 @@ from ..rotations import Array
 from ..signals import STANDARD_GRAVITY
 from .correlation import Correlation
 from .cues import FORCE_THRESHOLD, RATE_THRESHOLD, CueCounter
-from .run_columns import RunColumns, gathered
+from .run_columns import RunColumns
 from .statistics import Spread
 from .vestibular import CANALS, OTOLITHS, Organ, Sensing
 
@@ -20,7 +20,11 @@ VARIATION = 0.01
 
 @dataclass(frozen=True, slots=True)
 class _Quantity:
-    """One of the two things felt: its name, unit and columns, value at rest, thresholds of its axes, the organ for it."""
+    """A quantity that a head feels: specific force or angular rate.
+
+    vehicle, platform: the columns of pilot and rider (n, 3), cabin FRD; rest: their value at rest
+    upright; threshold: what a pilot begins to notice along each axis; organ: what senses it.
+    """
 
     name: str
     unit: str
@@ -44,59 +48,58 @@ _RATE = _Quantity("rate", "rad_s", "vehicle_w_B", "felt_w", ZERO, RATE_THRESHOLD
 
 
 class Fidelity:
-    """Likeness of pilot's and rider's motion, block by block."""
+    """How alike the pilot's and the rider's motion are along each axis, and as it is perceived.
+
+    Of specific force and angular rate along x forward, y right and z down of the cabin, with names
+    that begin with force_x and so on:
+
+    - ..._correlation, ..._delay_s: peak of the cross-correlation and how late the rider's signal is
+      there (`Correlation`), both 0 when one of the signals varies by no more than `VARIATION` of
+      the axis' threshold;
+    - ..._missing_share, ..._false_share, ..._scaled_share: shares of the ticks by kind of cue
+      (`CueCounter`), of the signals less their values at rest upright.
+
+    With perceived_force_x and so on both signals have gone through the otoliths, or the canals
+    (`vestibular`), at rest in the first tick's steady state before it. The thresholds are the same
+    there: they are the organs', at their output. perceived_force_..._m_s2 and
+    perceived_rate_..._rad_s are the length of the error vector behind the organs: rms, 95 %
+    quantile and maximum.
+
+    Ticks are taken as evenly spaced, as far apart as those of the first block are on average.
+    """
 
     def __init__(self) -> None:
-        """Of no ticks yet."""
-        self._quantities: list[_Sides] = []
+        """Begin without ticks."""
+        self._sensations: list[_Sensation] = []
 
     def add(self, block: RunColumns) -> None:
-        """Take in the ticks that follow."""
-        self._quantities = self._quantities or _all_sides(_step(block.time))
-        for quantity in self._quantities:
+        """Take in the next ticks."""
+        self._sensations = self._sensations or _sensations(_step(block.time))
+        for quantity in self._sensations:
             quantity.add(block)
 
     def figures(self) -> dict[str, float]:
-        """Those of `likeness`."""
-        quantities = self._quantities or _all_sides(1.0)
+        """Perceived errors, then likeness of each axis, of all blocks so far."""
+        quantities = self._sensations or _sensations(1.0)
         figures: dict[str, float] = {}
-        for part in (_Sides.errors, _Sides.plain, _Sides.perceived):
+        for part in (_Sensation.errors, _Sensation.plain, _Sensation.perceived):
             for quantity in quantities:
                 figures |= part(quantity)
         return figures
 
 
-def likeness(flight: RunColumns) -> dict[str, float]:
-    """Figures of specific force and angular rate along each axis of the cabin (forward x, right y, down z), also as perceived.
-
-    - ..._correlation and ..._delay_s: peak of the cross-correlation and how late the platform is
-      there (`correlation`), both 0 when pilot's or rider's signal varies by no more than
-      `VARIATION` of the threshold;
-    - ..._missing_share, ..._false_share, ..._scaled_share: cues by `cue_shares`, as departures from
-        rest upright.
-
-    Names begin with force_x and so on; with perceived_force_x where both signals have gone through
-    the otoliths, or the canals, at rest in the first tick's steady state before it. The thresholds
-    are the same there: they are the organs', at their output. perceived_force_rms_m_s2,
-        perceived_rate_rms_rad_s, ..._p95_..., ..._max_... are the error vector's length then.
-
-    Ticks are taken as evenly spaced, as far apart as those of the first block are on average.
-    """
-    return gathered(Fidelity(), flight)
-
-
 def _step(time: Array) -> float:
-    """Mean step, s."""
+    """Mean time from tick to tick, s; 1 for a single tick."""
     return float(time[-1] - time[0]) / (len(time) - 1) if len(time) > 1 else 1.0
 
 
-class _Sides:
-    """Pilot's and rider's share of one quantity."""
+class _Sensation:
+    """One quantity as pilot and rider have it: likeness of its axes and perceived error."""
 
     def __init__(self, quantity: _Quantity, dt: float) -> None:
         self._quantity = quantity
         self._plain, self._perceived = (
-            [_Alike(t, dt) for t in quantity.threshold] for _ in range(2)
+            [_Likeness(t, dt) for t in quantity.threshold] for _ in range(2)
         )
         self._pilot, self._rider = (
             [Sensing(quantity.organ, dt) for _ in range(3)] for _ in range(2)
@@ -104,7 +107,7 @@ class _Sides:
         self._error = Spread()
 
     def add(self, block: RunColumns) -> None:
-        """Take in the ticks that follow."""
+        """Take in the next ticks."""
         vehicle, platform = (
             getattr(block, self._quantity.vehicle),
             getattr(block, self._quantity.platform),
@@ -122,18 +125,18 @@ class _Sides:
         self._error.add(np.sqrt(square))
 
     def errors(self) -> dict[str, float]:
-        """Of the perceived error."""
+        """Length of the perceived error: rms, 95 % quantile and maximum."""
         return self._error.figures(f"perceived_{self._quantity.name}", self._quantity.unit)
 
     def plain(self) -> dict[str, float]:
-        """Of each axis, as it is."""
+        """Likeness of each axis, as it is."""
         return self._of_axes(self._quantity.name, self._plain)
 
     def perceived(self) -> dict[str, float]:
-        """Of each axis, behind the organ."""
+        """Likeness of each axis, behind the organ."""
         return self._of_axes(f"perceived_{self._quantity.name}", self._perceived)
 
-    def _of_axes(self, name: str, axes: "list[_Alike]") -> dict[str, float]:
+    def _of_axes(self, name: str, axes: "list[_Likeness]") -> dict[str, float]:
         return {
             key: value
             for i, axis in enumerate(axes)
@@ -141,8 +144,8 @@ class _Sides:
         }
 
 
-class _Alike:
-    """Likeness of two signals along one axis."""
+class _Likeness:
+    """Correlation and cues of two signals (n,) along one axis."""
 
     def __init__(self, threshold: float, dt: float) -> None:
         self._correlation, self._cues = (
@@ -151,16 +154,16 @@ class _Alike:
         )
 
     def add(self, pilot: Array, rider: Array) -> None:
-        """Take in the ticks that follow."""
+        """Take in the next ticks."""
         self._correlation.add(pilot, rider)
         self._cues.add(pilot, rider)
 
     def figures(self, name: str) -> dict[str, float]:
-        """With names that begin so."""
+        """All figures of the axis, with names that begin with `name`."""
         peak, delay = self._correlation.peak()
         shares = {f"{name}_{kind}_share": share for kind, share in self._cues.shares().items()}
         return {f"{name}_correlation": peak, f"{name}_delay_s": delay, **shares}
 
 
-def _all_sides(dt: float) -> list[_Sides]:
-    return [_Sides(quantity, dt) for quantity in (_FORCE, _RATE)]
+def _sensations(dt: float) -> list[_Sensation]:
+    return [_Sensation(quantity, dt) for quantity in (_FORCE, _RATE)]

@@ -1,22 +1,33 @@
-"""Were the actuators' limits kept? By the logged values, and by finite differences of them."""
+"""Whether the actuators' limits were kept, by the logged values and by their differences."""
+
+import re
+from collections.abc import Mapping
 
 import numpy as np
 
 from ..rotations import Array
 from ..signals import StageLimits, WheelLimits
-from .run_columns import RunColumns, Tail, gathered
+from .run_columns import RunColumns, Tail
 from .statistics import Peaks
 
 # of a limit: differences over 1 ms of times up to an hour carry rounding of 1e-9, resting on a
 # limit is fair
 TOLERANCE = 1e-6
+_HOW = re.compile("_(logged|difference|second_difference)$")  # behind the limit in a name
 
 
 class LimitUse:
-    """Use of the limits, block by block."""
+    """Largest use of each limit over a run and over wheels or axes, as a fraction of the limit.
+
+    - ..._logged: by the quantity in the log;
+    - ..._difference: by the slope of the next lower one between two ticks, which is the mean of the
+      true quantity over the tick;
+    - ..._second_difference: by the curvature of the speed over three ticks, its second divided
+      difference times two: the mean second derivative weighted by a hat.
+    """
 
     def __init__(self, wheels: WheelLimits, stage: StageLimits) -> None:
-        """Of no ticks yet."""
+        """Begin without ticks; the limits are those of each wheel and of each axis of the stage."""
         self._limits = {
             "wheel_speed_logged": wheels.speed,
             "wheel_acceleration_logged": wheels.acceleration,
@@ -34,7 +45,7 @@ class LimitUse:
         self._tail = Tail(2)
 
     def add(self, block: RunColumns) -> None:
-        """Take in the ticks that follow."""
+        """Take in the next ticks."""
         t, speed, acceleration, p, v, a = self._tail.joined(
             block.time,
             block.wheel_speed,
@@ -62,28 +73,26 @@ class LimitUse:
             self._peaks[name].add(values)
 
     def figures(self) -> dict[str, float]:
-        """Those of `limit_use`."""
+        """Largest use of each limit in all blocks so far, 1 for the limit itself."""
         return {
             name: float(np.max(self._peaks[name].components / limit))
             for name, limit in self._limits.items()
         }
 
 
-def limit_use(flight: RunColumns, wheels: WheelLimits, stage: StageLimits) -> dict[str, float]:
-    """Largest use of each limit over the flight and over wheels or axes, as a fraction of the limit.
-
-    `..._logged` is the quantity in the log; `..._difference` the slope of the next lower one
-    between two ticks, which the mean of the true quantity over the tick equals;
-    `..._second_difference` the curvature of the speed over three ticks: its second divided
-        difference times two, the mean second derivative weighted by a hat.
-    """
-    return gathered(LimitUse(wheels, stage), flight)
+def by_limit(use: Mapping[str, float]) -> dict[str, float]:
+    """Largest use of each limit, whether by logged values or by their differences."""
+    most: dict[str, float] = {}
+    for name, value in use.items():
+        limit = _HOW.sub("", name)
+        most[limit] = max(most.get(limit, value), value)
+    return most
 
 
 def violations(use: dict[str, float], tolerance: float = TOLERANCE) -> list[str]:
-    """One line for each limit that was exceeded, or that is not a number.
+    """List the limits that were exceeded, or whose use is not a number, one line each.
 
-    Empty when all were kept.
+    use: as `LimitUse.figures` gives it; tolerance: fraction of a limit that is not counted.
     """
     # NaN too
     exceeded = {name: value for name, value in use.items() if not value <= 1.0 + tolerance}
@@ -93,5 +102,5 @@ def violations(use: dict[str, float], tolerance: float = TOLERANCE) -> list[str]
 
 
 def _slope(values: Array, dt: Array) -> Array:
-    """Slope (n - 1, 3) between rows of values (n, 3) that are dt (n - 1,) apart."""
+    """Slopes (n - 1, 3) between the rows of values (n, 3), dt (n - 1,) apart."""
     return np.diff(values, axis=0) / dt[:, None]

@@ -15,13 +15,13 @@ thread for each core."""
 
 
 class Columns(Protocol):
-    """Whatever gives logged columns by topic and name, as `recording.Log` does."""
+    """A source of logged columns by topic and name, such as `recording.Log`."""
 
     def column(self, topic: str, field: str) -> Array:
-        """One field, (n,)."""
+        """One field (n,) of a topic."""
 
     def vector(self, topic: str, name: str) -> Array:
-        """The fields of a vector (n, 3) or quaternion (n, 4)."""
+        """A vector (n, 3) or quaternion (n, 4) of a topic."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +55,7 @@ class RunColumns:
 
     @classmethod
     def of(cls, log: Columns) -> "RunColumns":
-        """The flight in a log."""
+        """The columns of a log."""
         return cls(
             time=log.column("/motion", "time_s"),
             vehicle_q_NB=log.vector("/vehicle", "q_nb"),
@@ -82,11 +82,14 @@ class RunColumns:
         )
 
     def rows(self, rows: slice) -> "RunColumns":
-        """A part of the flight."""
+        """The rows of a slice, without a copy."""
         return RunColumns(**{field.name: getattr(self, field.name)[rows] for field in fields(self)})
 
     def blocks(self, ticks: int = BLOCK_TICKS) -> Iterator["RunColumns"]:
-        """The flight in blocks of so many ticks, counted from its start, each component of each column contiguous."""
+        """The run in blocks of so many ticks, counted from its start.
+
+        Each component of each column of a block is contiguous.
+        """
         for start in range(0, len(self.time), ticks):
             block = self.rows(slice(start, start + ticks))
             yield RunColumns(
@@ -98,22 +101,19 @@ class RunColumns:
 
 
 class Figures(Protocol):
-    """Figures of a flight that comes block by block.
-
-    Only quantiles need memory that grows with it (`statistics.Spread`).
-    """
+    """Figures of a run that comes block by block, as `evaluation` explains."""
 
     def add(self, block: RunColumns) -> None:
-        """Take in the ticks that follow, at least one."""
+        """Take in the next ticks, at least one."""
 
     def figures(self) -> dict[str, float]:
-        """The figures of all ticks so far, the unit in the name."""
+        """The figures of all ticks so far by name, the unit in the name."""
 
 
 def gathered(figures: Figures, flight: RunColumns) -> dict[str, float]:
-    """The figures of a whole flight, taken in block by block.
+    """Take in a whole run in the blocks of `BLOCK_TICKS` and give its figures.
 
-    To the last bit those of its log, read in the same blocks.
+    They are to the last bit those that a recorder gets, which takes in the same blocks.
     """
     for block in flight.blocks():
         figures.add(block)
@@ -121,15 +121,18 @@ def gathered(figures: Figures, flight: RunColumns) -> dict[str, float]:
 
 
 class Tail:
-    """The last rows of a block, kept to be put in front of the next, so that differences go on across the cut."""
+    """The last rows of a block, kept to be put in front of the next one.
+
+    So differences between ticks go on across the cut.
+    """
 
     def __init__(self, rows: int) -> None:
-        """Keeps so many `rows`; of no block yet."""
+        """Begin without a block; `rows` is how many are kept."""
         self._rows = rows
         self._kept: tuple[Array, ...] | None = None
 
     def joined(self, *columns: Array) -> tuple[Array, ...]:
-        """These columns with the last rows of the same columns before them, of which there are fewer at the start."""
+        """The columns with the last rows of the block before in front; none at the start."""
         if self._kept is not None:
             columns = tuple(np.concatenate(pair) for pair in zip(self._kept, columns, strict=True))
         self._kept = tuple(column[-self._rows :].copy("K") for column in columns)

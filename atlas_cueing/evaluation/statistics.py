@@ -1,6 +1,6 @@
-"""Figures of columns that come block by block.
+"""Statistics of values that come block by block.
 
-Of no values at all they are zero, so that every figure is a number.
+Those of no values at all are 0, so that every figure is a number.
 """
 
 from math import isnan
@@ -20,11 +20,11 @@ class Peaks:
     """Largest magnitude of each component of a vector (n, 3)."""
 
     def __init__(self) -> None:
-        """Of no values yet."""
+        """Begin without values."""
         self.components: Array = np.zeros(3)
 
     def add(self, v: Array) -> None:
-        """Take in the rows that follow, of which there may be none."""
+        """Take in the next rows (n, 3), of which there may be none."""
         if len(v):
             self.components = np.maximum(
                 self.components, np.maximum(np.max(v, axis=0), 0.0 - np.min(v, axis=0))
@@ -32,7 +32,7 @@ class Peaks:
 
     @property
     def largest(self) -> float:
-        """Over all components."""
+        """Largest magnitude of any component."""
         return float(np.max(self.components))
 
 
@@ -40,13 +40,13 @@ class Magnitudes:
     """Root mean square and maximum of magnitudes x (n,), as exact as sums of doubles are."""
 
     def __init__(self) -> None:
-        """Of no values yet."""
+        """Begin without values."""
         self.count = 0
         self.largest = 0.0
         self._squares = 0.0
 
     def add(self, x: Array) -> None:
-        """Take in the values that follow, of which there may be none."""
+        """Take in the next values (n,), of which there may be none."""
         if len(x):
             self.count += len(x)
             self.largest = float(np.maximum(self.largest, np.max(x)))  # NaN stays NaN
@@ -55,24 +55,24 @@ class Magnitudes:
 
     @property
     def rms(self) -> float:
-        """Root mean square."""
+        """Root mean square, 0 without values."""
         return float(np.sqrt(self._squares / self.count)) if self.count else 0.0
 
 
 class Spread(Magnitudes):
     """Magnitudes with quantiles, for which every value is kept, in single precision.
 
-    That is all that grows with a flight: 4 bytes a tick, 14 MB for an hour at 1 kHz. A quantile is
-    good to 6e-8 of itself; what is larger than 3e38 counts as infinite.
+    That is all that grows with a run: 4 bytes a tick, 14 MB for an hour at 1 kHz. A quantile is
+    exact to 6e-8 of itself; a value larger than 3e38 counts as infinite.
     """
 
     def __init__(self) -> None:
-        """Of no values yet."""
+        """Begin without values."""
         super().__init__()
         self._kept = bytearray()  # grows in place
 
     def add(self, x: Array) -> None:
-        """Take in the values that follow."""
+        """Take in the next values (n,)."""
         super().add(x)
         with np.errstate(over="ignore"):
             self._kept += x.astype(np.float32).data
@@ -80,7 +80,7 @@ class Spread(Magnitudes):
     def quantile(self, share: float, counted: NDArray[np.bool_] | None = None) -> float:
         """The value that this share (0 to 1) of the values does not exceed, interpolated.
 
-        Of those `counted` (count,) only.
+        counted: which of the values (count,) are taken, all by default.
         """
         kept = np.frombuffer(self._kept, np.float32)
         values = kept.copy() if counted is None else kept[counted]
@@ -94,7 +94,7 @@ class Spread(Magnitudes):
         return min(low + (place - below) * (high - low) if high > low else low, self.largest)
 
     def figures(self, name: str, unit: str) -> dict[str, float]:
-        """Rms, 95 % quantile and maximum: `<name>_rms_<unit>`, `<name>_p95_<unit>`, `<name>_max_<unit>`."""
+        """Rms, 95 % quantile and maximum as `<name>_rms_<unit>`, `..._p95_...`, `..._max_...`."""
         return {
             f"{name}_rms_{unit}": self.rms,
             f"{name}_p95_{unit}": self.quantile(0.95),

@@ -1,4 +1,4 @@
-"""What the organs of balance make of angular rate and of specific force.
+"""Transfer functions of the organs of balance, for angular rate and for specific force.
 
 Models of Telban & Cardullo, "Motion Cueing Algorithm Development: Human-Centered Linear and
 Nonlinear Approaches", NASA/CR-2005-213747, without their thresholds:
@@ -21,7 +21,9 @@ _TICKS = 32
 
 @dataclass(frozen=True, slots=True)
 class Organ:
-    """A sensor with two real poles in partial fractions: sensed = direct * input + sum of gain * input / (lag s + 1).
+    """A sensor with two real poles, in partial fractions.
+
+    sensed = direct * input + sum of gain * input / (lag s + 1)
 
     direct: part that follows the input at once; lags: (gain, time constant in s) of each pole.
     """
@@ -38,14 +40,19 @@ class Organ:
         return response
 
     def sense(self, signal: Array, dt: float) -> Array:
-        """What is sensed of a signal (n,) of ticks `dt` (s) apart, after an eternity of its first value.
+        """The sensed signal (n,) for a signal (n,) whose ticks are `dt` (s) apart.
 
+        The organ is in the steady state of the signal's first value when it begins.
         Exact for a signal that is straight between ticks (first-order hold).
         """
         return Sensing(self, dt).sense(signal)
 
     def discrete(self, dt: float) -> tuple[Array, Array, Array, float]:
-        """First-order hold: decay and drive of each lag a tick, its state under a steady input of 1, the direct part."""
+        """The organ by first-order hold, for ticks `dt` (s) apart.
+
+        Gives decay and drive of each lag in a tick (2,), its state under a steady input of 1 (2,),
+        and the direct part.
+        """
         gain, lag = np.array(self.lags).T
         rise = -np.expm1(-dt / lag)  # of a lag's output in a tick, under a steady input of 1
         new = 1.0 - rise * lag / dt  # weight of the present input in it
@@ -55,17 +62,14 @@ class Organ:
 
 
 class Sensing:
-    """An organ at work on a signal that comes block by block.
+    """An organ that senses a signal that comes block by block.
 
     A recursion z' = decay z + drive u a lag, run as one matrix product a few ticks;
     scipy.signal.lfilter does the same and takes two seconds to import.
     """
 
     def __init__(self, organ: Organ, dt: float) -> None:
-        """The organ after an eternity of the first value that will come.
-
-        Ticks are `dt` (s) apart.
-        """
+        """Begin in the steady state of the first value to come; ticks are `dt` (s) apart."""
         self._decay, drive, self._steady, direct = organ.discrete(dt)
         gains = np.array([gain for gain, _ in organ.lags])
         powers = self._decay ** np.arange(_TICKS)[:, None]  # (ticks, lags)
@@ -78,7 +82,7 @@ class Sensing:
         self._state: Array | None = None
 
     def sense(self, signal: Array) -> Array:
-        """What is sensed of the signal (n,) that follows."""
+        """The sensed signal (n,) for the next values (n,)."""
         if not len(signal):
             return np.empty(0)
         state = self._steady * signal[0] if self._state is None else self._state
@@ -96,7 +100,11 @@ class Sensing:
 
 
 def _carried(ends: Array, decay: Array, start: Array) -> Array:
-    """States (rows + 1, lags) before each row and behind the last, from what each row adds at its end."""
+    """States (rows + 1, lags) before each row and behind the last.
+
+    ends: what each row adds to the states at its end (rows, lags); decay: factor of each lag in a
+    row (lags,); start: states before the first row (lags,).
+    """
     columns = []
     for added, factor, first in zip(ends.T.tolist(), decay.tolist(), start.tolist(), strict=True):
         carried = accumulate(added, lambda z, x, factor=factor: factor * z + x, initial=first)  # type: ignore[misc]
@@ -105,12 +113,12 @@ def _carried(ends: Array, decay: Array, start: Array) -> Array:
 
 
 def _canals(short: float, long: float) -> Organ:
-    """Organ short long s^2 / ((short s + 1)(long s + 1))."""
+    """The organ short long s^2 / ((short s + 1)(long s + 1))."""
     return Organ(1.0, ((long / (short - long), short), (short / (long - short), long)))
 
 
 def _otoliths(gain: float, lead: float, long: float, short: float) -> Organ:
-    """Organ gain (lead s + 1) / ((long s + 1)(short s + 1))."""
+    """The organ gain (lead s + 1) / ((long s + 1)(short s + 1))."""
     return Organ(
         0.0,
         (

@@ -1,4 +1,4 @@
-"""The files inside a log: the scenario and the platform it was flown with."""
+"""The files inside a log: scenario and platform of the run."""
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -17,7 +17,7 @@ _DEEPEST = 8  # folders and file; an aircraft has four
 
 @contextmanager
 def unpacked(log: Log) -> Iterator[Path]:
-    """A folder that holds the log's files until the end.
+    """Unpack the log's files into a folder that is removed at the end of the context.
 
     Raises LogError for names that lead elsewhere, and for large files.
     """
@@ -31,7 +31,7 @@ def unpacked(log: Log) -> Iterator[Path]:
 
 
 def platform_of(log: Log) -> Platform:
-    """The platform of a log. Raises LogError when the log has none that can be read."""
+    """The platform in a log. Raises LogError when there is none, or it cannot be read."""
     if PLATFORM not in log.attachments:
         raise LogError(
             f"{log.path}: the log does not hold {PLATFORM}, so its limits and wheels are unknown"
@@ -44,7 +44,7 @@ def platform_of(log: Log) -> Platform:
 
 
 def as_inside(error: Exception, folder: Path) -> str:
-    """The error's text in one line, with the folder's files named as the log's own."""
+    """The text of an error in one line, with the files in `folder` named as the log's."""
     return "; ".join(str(error).replace(f"{folder}/", "the log's ").splitlines())
 
 
@@ -65,6 +65,6 @@ def _check(log: Log) -> None:
 
 
 def _stays_inside(name: str) -> bool:
-    """Whether a path of an attachment is one of plain names: `aircraft/mine/mine.xml`."""
+    """Whether the path of an attachment has plain names only, as `aircraft/mine/mine.xml`."""
     parts = name.split("/")
     return len(parts) <= _DEEPEST and all(part not in ("", ".", "..") for part in parts)

@@ -1,4 +1,4 @@
-"""The same flight cued in several ways, side by side."""
+"""Reviews of several logs of one flight, side by side."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import InputError
+from ..evaluation import DECLARED, Metric
 from .recorded_run import RecordedRun
 from .verdict import Review, review_log
 
@@ -20,17 +21,21 @@ class Comparison:
 
     @property
     def clean(self) -> bool:
-        """Nothing was found in any log."""
+        """Whether nothing was found in any log."""
         return all(each.clean for each in self.reviews)
 
-    def metric_names(self) -> list[str]:
-        """Every metric that any log has, in the order of the first one."""
-        return list(dict.fromkeys(name for each in self.reviews for name in each.metrics))
+    def metrics(self) -> list[Metric]:
+        """Every metric that any log has, in the order of their declaration."""
+        return [
+            metric
+            for name, metric in DECLARED.items()
+            if any(name in each.metrics for each in self.reviews)
+        ]
 
     def to_json(self) -> dict[str, object]:
-        """One object a log, and every metric as a list in the order of the logs.
+        """The reviews by log, and every metric as a list in the order of the logs.
 
-        None where a log lacks it.
+        The list has None where a log lacks the metric.
         """
         return {
             "names": list(self.names),
@@ -39,8 +44,8 @@ class Comparison:
                 for each in self.reviews
             ],
             "metrics": {
-                name: [each.metrics.get(name) for each in self.reviews]
-                for name in self.metric_names()
+                metric.name: [each.metrics.get(metric.name) for each in self.reviews]
+                for metric in self.metrics()
             },
         }
 
@@ -65,7 +70,7 @@ def compare_logs(paths: Sequence[str | Path], *, different_flights: bool = False
 
 
 def flights_differ(one: RecordedRun, other: RecordedRun) -> str:
-    """In what the vehicle's flight differs; empty when it is the same to the last bit."""
+    """Say in what two flights of the vehicle differ; "" when they are equal to the last bit."""
     a, b = one.flight, other.flight
     if len(a.time) != len(b.time):
         return f"{len(b.time)} ticks instead of {len(a.time)}"
@@ -83,7 +88,7 @@ def flights_differ(one: RecordedRun, other: RecordedRun) -> str:
 
 
 def _names(reviews: Sequence[Review]) -> tuple[str, ...]:
-    """The methods, if they tell the logs apart; else methods and platforms; else the files."""
+    """Short names: the methods if they differ, else methods and platforms, else the files."""
     metadata = [each.run.log.metadata for each in reviews]
     for keys in (("method",), ("platform",), ("method", "platform"), ("scenario",)):
         names = tuple(" ".join(record.get(key, "?") for key in keys) for record in metadata)

@@ -1,4 +1,4 @@
-"""What is wrong with a log: which check, where, when, how much and what would be allowed."""
+"""A fault found in a log: which check, where, when, how much, and what is allowed."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ class Finding:
         return f"{when}{self.place}: {self.check}: {self.text}"
 
     def to_json(self) -> dict[str, object]:
-        """By name; `time_s` is None when the finding belongs to the whole log."""
+        """The fields by name; `time_s` is None when the finding belongs to the whole log."""
         return {"check": self.check, "place": self.place, "time_s": self.time, "text": self.text}
 
 
@@ -41,10 +41,11 @@ def exceeding(
     *,
     quantity: str = "|value|",
 ) -> list[Finding]:
-    """One finding for each column of `values` (n,) or (n, k) whose magnitude exceeds `allowed` anywhere.
+    """Make a finding of each column whose magnitude exceeds its bound anywhere, at the worst tick.
 
-    `time` (n,) in s; `allowed` broadcasts against (n, k), in `unit`. NaN is not judged here:
-    `numbers` has found it already.
+    check: the rule; places: name of each column; time: of the ticks (n,), s; values: (n,) or
+    (n, k); allowed: bound in `unit`, which broadcasts against (n, k); quantity: how the magnitude
+    is called in the text. NaN is not counted here: `finite` has found it already.
     """
     size = np.abs(np.atleast_2d(values.T).T)
     bounds = np.broadcast_to(np.asarray(allowed, dtype=np.float64), size.shape)

@@ -1,4 +1,7 @@
-"""Rotations of a whole run as matrices and quaternions, for review alone: nothing that made a log is used to judge it.
+"""Rotations of a whole run as quaternions and matrices, for review alone.
+
+On purpose this repeats part of `rotation` and `rotations`: what made a log is not used to judge it,
+so that an error there cannot hide itself. It is written by other formulas where there are any.
 
 Quaternions are (n, 4), scalar first; `q_AB` turns B-vectors into A-vectors; angles in rad.
 """
@@ -16,12 +19,12 @@ def product(p: Array, q: Array) -> Array:
 
 
 def inverse(q: Array) -> Array:
-    """The opposite rotations of unit quaternions."""
+    """Inverses of unit quaternions (n, 4)."""
     return np.hstack([q[:, :1], -q[:, 1:]])
 
 
 def from_vector(phi: Array) -> Array:
-    """Quaternions of rotation vectors (n, 3) in rad."""
+    """Quaternions (n, 4) of rotation vectors (n, 3), rad."""
     angle = np.linalg.norm(phi, axis=1, keepdims=True)
     # sin(angle/2)/angle; below 1e-8 rad its series is 1/2 to the last bit
     factor = np.where(angle > 1e-8, np.sin(0.5 * angle) / np.where(angle > 1e-8, angle, 1.0), 0.5)
@@ -29,7 +32,7 @@ def from_vector(phi: Array) -> Array:
 
 
 def to_vector(q: Array) -> Array:
-    """Rotation vectors (n, 3), rad, of the shorter way round."""
+    """Rotation vectors (n, 3), rad, of quaternions (n, 4), the shorter way round."""
     q = np.where(q[:, :1] < 0.0, -q, q)
     sine = np.linalg.norm(q[:, 1:], axis=1, keepdims=True)
     angle = 2.0 * np.arctan2(sine, q[:, :1])
@@ -40,7 +43,7 @@ def to_vector(q: Array) -> Array:
 
 
 def to_matrix(q: Array) -> Array:
-    """Rotation matrices R_AB (n, 3, 3) of q_AB."""
+    """Rotation matrices R_AB (n, 3, 3) of q_AB (n, 4)."""
     w, x, y, z = q.T
     rows = [
         [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
@@ -51,18 +54,18 @@ def to_matrix(q: Array) -> Array:
 
 
 def turned_back(q_AB: Array, v_A: Array) -> Array:
-    """Vectors (n, 3) given in A, expressed in B."""
+    """Vectors (n, 3) in B, of vectors (n, 3) in A."""
     turned: Array = np.einsum("nij,ni->nj", to_matrix(q_AB), v_A)
     return turned
 
 
 def turned(q_AB: Array, v_B: Array) -> Array:
-    """Vectors (n, 3) given in B, expressed in A."""
+    """Vectors (n, 3) in A, of vectors (n, 3) or one (3,) in B."""
     result: Array = np.einsum("nij,nj->ni", to_matrix(q_AB), np.broadcast_to(v_B, (len(q_AB), 3)))
     return result
 
 
 def cross(a: Array, b: Array) -> Array:
-    """Cross products, row by row; np.cross takes twice as long."""
+    """Cross products of rows (n, 3); np.cross takes twice as long."""
     (ax, ay, az), (bx, by, bz) = a.T, b.T
     return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=1)

@@ -1,4 +1,4 @@
-"""A log opened for review: its columns, its platform, and the platform's matrices by review's own arithmetic."""
+"""A log opened for review: its columns, and its platform with matrices derived here again."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -12,8 +12,8 @@ from ..rotations import Array
 from ..scenario import Platform
 from .attachments import platform_of
 
-# A log of ours packs to four fifths in flight and to a sixth standing still. What a file unpacks to
-# is bounded by its own size, or 30 kB could fill the memory.
+# A log packs to four fifths of its size in flight and to a sixth standing still. What it may unpack
+# to is bounded by its own size: else 30 kB could fill the memory.
 LARGEST_RATIO = 16
 SMALLEST_BOUND = 32 << 20  # bytes
 TOPICS = ("/vehicle", "/cue", "/motion", "/wheels", "/felt")
@@ -21,7 +21,10 @@ TOPICS = ("/vehicle", "/cue", "/motion", "/wheels", "/felt")
 
 @dataclass(frozen=True, slots=True)
 class RecordedRun:
-    """What review looks at; `flight` has equally many rows everywhere, as many as the shortest topic of `log`."""
+    """A log with its platform and its columns.
+
+    flight: the columns, all cut to the length of the shortest topic of `log`.
+    """
 
     log: Log
     platform: Platform
@@ -29,11 +32,15 @@ class RecordedRun:
 
     @property
     def step(self) -> float:
-        """Time from one tick to the next, s: the median; 0 for fewer than two ticks."""
+        """Median time from one tick to the next, s; 0 for fewer than two ticks."""
         return float(np.median(np.diff(self.flight.time))) if len(self.flight.time) > 1 else 0.0
 
     def wheels_from_sphere(self) -> Array:
-        """J^-1 (3, 3) from the platform file: row i is R / r_i (contact_i x drive_i), unit and tangent (Eq. 11, 22)."""
+        """J^-1 (3, 3), frame W, from the platform file (Eq. 11, 22).
+
+        Row i is R / r_i (contact_i x drive_i), with both directions of unit length and the drive
+        tangent to the sphere.
+        """
         radius, rows = self.platform.sphere.radius_m, []
         for wheel in self.platform.wheel:
             contact = np.array(wheel.contact) / np.linalg.norm(wheel.contact)
@@ -42,7 +49,7 @@ class RecordedRun:
         return np.array(rows)
 
     def sphere_from_wheels(self) -> Array:
-        """J (3, 3), the inverse (Eq. 18)."""
+        """J (3, 3), frame W, the inverse of `wheels_from_sphere` (Eq. 18)."""
         inverse: Array = np.linalg.inv(self.wheels_from_sphere()).astype(np.float64)
         return inverse
 
@@ -76,7 +83,7 @@ def open_log(path: str | Path) -> Log:
 
 
 def largest_content(path: Path) -> int:
-    """Bytes that the file may unpack to. Raises InputError when it is no file."""
+    """Bytes that a file may unpack to at most. Raises InputError when it is no file."""
     try:
         if not path.is_file():
             there = "not a regular file" if path.exists() else "no such file"

@@ -1,4 +1,4 @@
-"""From a cut or damaged log to a finished one with all that is whole."""
+"""Recovery of a cut or damaged log: a finished one is written with all that is whole."""
 
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -19,7 +19,11 @@ from .recorded_run import largest_content
 
 @dataclass(frozen=True, slots=True)
 class Recovered:
-    """What came back: `ticks` over `seconds` of flight, `lost` says what did not, one line for each loss."""
+    """What was recovered.
+
+    log: the log written; ticks, seconds: ticks in it and the time they cover; lost: a line for each
+    loss.
+    """
 
     log: Path
     ticks: int
@@ -27,7 +31,7 @@ class Recovered:
     lost: tuple[str, ...]
 
     def to_json(self) -> dict[str, object]:
-        """Everything by name, the unit in the name."""
+        """The fields by name, the unit in the name."""
         return {
             "log": str(self.log),
             "ticks": self.ticks,
@@ -37,7 +41,9 @@ class Recovered:
 
 
 def recover_log(broken: str | Path, output: str | Path) -> Recovered:
-    """Write every complete chunk of `broken` into the finished log `output`, which is replaced if it exists.
+    """Write every complete chunk of the log `broken` into the finished log `output`.
+
+    An existing `output` is replaced.
 
     Raises InputError when there is no file `broken`, LogError when it holds nothing to recover, and
     OutputError when `output` cannot be written.
@@ -55,7 +61,7 @@ def recover_log(broken: str | Path, output: str | Path) -> Recovered:
 
 
 def advice(broken: Path) -> str:
-    """What to do about a log that cannot be read: empty when there is nothing in it to recover."""
+    """Advice on a log that cannot be read; "" when there is nothing in it to recover."""
     try:
         found = salvage(broken, largest_content(broken))
     except (LogError, InputError):
@@ -71,7 +77,7 @@ def _remedy(broken: Path) -> str:
 
 
 def _losses(found: Salvage, log: Log) -> tuple[str, ...]:
-    """One line for each stretch of time that is missing, for an end that is missing, and for what is in doubt."""
+    """A line for each interval that is missing, for a missing end, and for what is in doubt."""
     if found.complete:
         return ()
     topic, time = _times(log)
@@ -81,8 +87,8 @@ def _losses(found: Salvage, log: Log) -> tuple[str, ...]:
     lost = _missing(time, step, time[-1])
     for other, table in log.tables.items():
         if other != topic and "time_s" in table.fields:
-            told = _missing(log.column(other, "time_s"), step, time[-1])
-            lost += [f"{other}: {line}" for line in told if line not in lost]
+            lines = _missing(log.column(other, "time_s"), step, time[-1])
+            lost += [f"{other}: {line}" for line in lines if line not in lost]
     lost += [str(error) for error in found.objections if isinstance(error, CompressionError)]
     if found.doubtful:
         lost.append(
@@ -97,7 +103,7 @@ def _losses(found: Salvage, log: Log) -> tuple[str, ...]:
 
 
 def _times(log: Log) -> tuple[str, np.ndarray]:
-    """The topic that tells the ticks, mostly /motion, and their times."""
+    """The topic with the most ticks, /motion if it is one of them, and their times (n,), s."""
     timed = [topic for topic, table in log.tables.items() if "time_s" in table.fields]
     if not timed:
         raise LogError(f"{log.path}: there is nothing to recover: no topic has ticks")
@@ -106,7 +112,7 @@ def _times(log: Log) -> tuple[str, np.ndarray]:
 
 
 def _missing(time: np.ndarray, step: float, end: float) -> list[str]:
-    """The stretches that are missing before, between and after times (n,), which should be `step` apart up to `end`, s."""
+    """A line for each interval that lacks ticks: `time` (n,), s, should go by `step` to `end`."""
     if not len(time):
         return ["everything"]
     lost = [f"before {time[0]:.6f} s: everything"] if time[0] > step else []
@@ -118,22 +124,27 @@ def _missing(time: np.ndarray, step: float, end: float) -> list[str]:
 
 
 def _metadata(found: Salvage, reason: str) -> dict[str, str]:
-    """The log's own account, or what its files tell of it.
+    """The metadata of the new log: the old log's or, without them, those from its attachments.
 
-    Its result is `recovered` unless nothing was amiss.
+    The result is `recovered` unless the old log was complete.
     """
-    told = dict(found.metadata) or _from_files(found)
+    metadata = dict(found.metadata) or _from_files(found)
     if found.complete:
-        return told
-    before = told.get("result", "")
+        return metadata
+    before = metadata.get("result", "")
     why = f"{reason}; its result was {before!r}" if before else reason
-    return {**told, "result": "recovered", "reason": why, "recovered_with": version("atlas_cueing")}
+    return {
+        **metadata,
+        "result": "recovered",
+        "reason": why,
+        "recovered_with": version("atlas_cueing"),
+    }
 
 
 def _from_files(found: Salvage) -> dict[str, str]:
     """Scenario, method and platform as the attachments name them.
 
-    A log gets its metadata only at its end.
+    A log that was cut has no metadata: they are written at its end.
     """
     scenario, platform = (_table(found.attachments.get(name, b"")) for name in (SCENARIO, PLATFORM))
     cueing = scenario.get("cueing")

@@ -5,14 +5,15 @@ It opens from disk, without any network.
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..atomic_file import write_page as write_file
 from ..errors import MissingExtraError, OutputError
+from ..evaluation import DECLARED, Metric, Shown, shown
+from ..evaluation.units import typeset
 from ..printable import html_text
 from .checks.deadlines import is_live
 from .comparison import Comparison
-from .figures import Figure, telling
 from .verdict import Review
 
 if TYPE_CHECKING:
@@ -20,13 +21,17 @@ if TYPE_CHECKING:
 
 _ZOOM = "drag to zoom, double-click to see all"
 _STYLE = """
-body { font-family: system-ui, sans-serif; margin: 1.2em auto; max-width: 1500px; padding: 0 1em; color: #1b2733; }
+body { font-family: system-ui, sans-serif; margin: 1.2em auto; max-width: 1500px; padding: 0 1em;
+color: #1b2733; }
 h1 { font-size: 1.5em; margin: 0.2em 0; } h2 { font-size: 1.15em; margin: 1.4em 0 0.3em; }
-.verdict { display: inline-block; padding: 0.15em 0.7em; border-radius: 0.4em; color: white; background: #c00000; }
+.verdict { display: inline-block; padding: 0.15em 0.7em; border-radius: 0.4em; color: white;
+background: #c00000; }
 .verdict.clean { background: #2e7d32; }
 .columns { display: flex; flex-wrap: wrap; gap: 0 3em; align-items: flex-start; }
-table { border-collapse: collapse; margin: 0.5em 0; } td, th { padding: 0.1em 0.9em 0.1em 0; text-align: left; }
-td.number, th { text-align: right; } td.number { font-variant-numeric: tabular-nums; } td:first-child { color: #5a6a7a; }
+table { border-collapse: collapse; margin: 0.5em 0; }
+td, th { padding: 0.1em 0.9em 0.1em 0; text-align: left; }
+td.number, th { text-align: right; } td.number { font-variant-numeric: tabular-nums; }
+td:first-child { color: #5a6a7a; }
 li.finding { color: #c00000; } details { margin: 0.5em 0; }
 """
 
@@ -37,10 +42,11 @@ def write_page(found: Review, file: str | Path) -> None:
     Raises MissingExtraError without plotly and OutputError when the file cannot be written; an old
     one is kept then.
     """
-    plots = _plots()
+    _check_plotly()
     from .plots.limit_bars import limit_bars
     from .plots.space import in_space
     from .plots.spectra import spectra
+    from .plots.time_series import over_time
 
     run = found.run
     sections = [
@@ -48,7 +54,7 @@ def write_page(found: Review, file: str | Path) -> None:
         ("", _findings(found)),
         (
             f"Over time, in the axes of the vehicle's body and of the cabin: {_ZOOM}",
-            plots.over_time(found),
+            over_time(found),
         ),
         (
             (
@@ -60,53 +66,52 @@ def write_page(found: Review, file: str | Path) -> None:
         *_punctuality(found),
         ("Use of the limits", limit_bars(run)),
         ("Power spectra, summed over the axes", spectra(run)),
-        ("Every figure", _metrics(["value"], list(found.metrics), [found.metrics])),
+        ("Every figure", _every_metric(["value"], [found.metrics])),
     ]
     _write(file, run.log.metadata.get("scenario", "") or run.log.path.name, sections)
 
 
 def write_comparison(comparison: Comparison, file: str | Path) -> None:
     """Write the runs side by side into `file`. Raises as `write_page`."""
-    plots = _plots()
+    _check_plotly()
+    from .plots.overlays import overlays
+
     runs = [each.run for each in comparison.reviews]
     heads = "".join(
-        f"<tr><td>{html_text(name)}</td><td>{_verdict(each)}</td><td>{html_text(str(each.run.log.path))}</td></tr>"
+        f"<tr><td>{html_text(name)}</td><td>{_verdict(each)}</td>"
+        f"<td>{html_text(str(each.run.log.path))}</td></tr>"
         for name, each in zip(comparison.names, comparison.reviews, strict=True)
     )
     sections = [
         (
             "",
             (
-                f"<h1>{' against '.join(html_text(name) for name in comparison.names)}</h1><table>{heads}</table>"
+                f"<h1>{' against '.join(html_text(name) for name in comparison.names)}</h1>"
+                f"<table>{heads}</table>"
             ),
         ),
         ("Rider less pilot, net turns, and what was limited", _headlines(comparison)),
-        (f"Over time: {_ZOOM}", plots.overlays(comparison.names, runs)),
+        (f"Over time: {_ZOOM}", overlays(comparison.names, runs)),
         (
             "Every figure",
-            _metrics(
-                comparison.names,
-                comparison.metric_names(),
-                [each.metrics for each in comparison.reviews],
-            ),
+            _every_metric(comparison.names, [each.metrics for each in comparison.reviews]),
         ),
     ]
     _write(file, " against ".join(comparison.names), sections)
 
 
-def _plots() -> Any:
-    """The module of plots; plotly comes with an extra and takes half a second to load."""
+def _check_plotly() -> None:
+    """Import plotly, which takes half a second. Raises MissingExtraError without it."""
     try:
-        from .plots import time_series as plots
+        import plotly.graph_objects  # noqa: F401
     except ModuleNotFoundError as error:
         if (error.name or "").partition(".")[0] != "plotly":
             raise
         raise MissingExtraError("an HTML page", "plotly", "report") from error
-    return plots
 
 
 def _punctuality(found: Review) -> "list[tuple[str, Plot]]":
-    """Of a live run only."""
+    """The section of a live run's lateness; none for any other run."""
     if not is_live(found.run):
         return []
     from .plots.lateness import punctuality
@@ -115,25 +120,31 @@ def _punctuality(found: Review) -> "list[tuple[str, Plot]]":
 
 
 def _headlines(comparison: Comparison) -> str:
-    """The figures that tell most, one column a log."""
-    names = telling(name for each in comparison.reviews for name in each.metrics)
-    return _columns(comparison.names, names, [each.metrics for each in comparison.reviews])
+    """The metrics at the head of a comparison, one column a log."""
+    return _columns(
+        comparison.names, shown(Shown.HEADLINE), [each.metrics for each in comparison.reviews]
+    )
 
 
 def _header(found: Review) -> str:
-    """Verdict first, then what was flown and the figures that tell most."""
+    """The verdict first, then what was flown and the metrics at the head of a review."""
     metadata = found.run.log.metadata
-    told = [
+    rows = [
         ("log", str(found.run.log.path)),
         ("flight", f"{found.duration:.2f} s, {len(found.run.flight.time)} ticks"),
         *((key.replace("_", " "), value) for key, value in metadata.items() if value),
     ]
     title = metadata.get("scenario", "") or found.run.log.path.name
-    errors = [name for name in telling(found.metrics) if "_rms_" in name]
-    others = [name for name in telling(found.metrics) if name not in errors]
+    errors, others = (
+        _columns([head], shown(place), [found.metrics])
+        for head, place in (
+            ("rider less pilot", Shown.ERROR_HEADLINE),
+            ("whole run", Shown.RUN_HEADLINE),
+        )
+    )
     return (
-        f"<h1>{html_text(title)} {_verdict(found)}</h1><div class='columns'>{_table(told)}"
-        f"{_columns(['rider less pilot'], errors, [found.metrics])}{_columns(['whole run'], others, [found.metrics])}</div>"
+        f"<h1>{html_text(title)} {_verdict(found)}</h1><div class='columns'>{_table(rows)}"
+        f"{errors}{others}</div>"
     )
 
 
@@ -157,27 +168,29 @@ def _table(rows: Sequence[tuple[str, str]]) -> str:
     )
 
 
-def _metrics(
-    heads: Sequence[str], names: Sequence[str], columns: Sequence[dict[str, float]]
-) -> str:
+def _every_metric(heads: Sequence[str], columns: Sequence[dict[str, float]]) -> str:
     """All metrics, one column a log, folded away."""
-    return (
-        f"<details><summary>{len(names)}"
-        f" figures</summary>{_columns(heads, names, columns)}</details>"
-    )
+    found = [metric for metric in DECLARED.values() if _has(metric, columns)]
+    table = _columns(heads, found, columns)
+    return f"<details><summary>{len(found)} figures</summary>{table}</details>"
+
+
+def _has(metric: Metric, columns: Sequence[dict[str, float]]) -> bool:
+    return any(metric.name in column for column in columns)
 
 
 def _columns(
-    heads: Sequence[str], names: Sequence[str], columns: Sequence[dict[str, float]]
+    heads: Sequence[str], metrics: Sequence[Metric], columns: Sequence[dict[str, float]]
 ) -> str:
-    """Metrics by name, one column a log."""
+    """Those of the metrics that any log has, one column a log; their definitions are tooltips."""
     rows = [f"<tr><th></th>{''.join(f'<th>{html_text(head)}</th>' for head in heads)}</tr>"]
-    for name in names:
-        figure = Figure.of(name)
-        cells = "".join(
-            f"<td class='number'>{figure.text(column.get(name))}</td>" for column in columns
-        )
-        rows.append(f"<tr><td>{html_text(figure.title.replace('/s2', '/s²'))}</td>{cells}</tr>")
+    for metric in metrics:
+        if not _has(metric, columns):
+            continue
+        values = (metric.unit.text(column.get(metric.name)) for column in columns)
+        cells = "".join(f"<td class='number'>{value}</td>" for value in values)
+        head = f"<td title='{html_text(metric.definition)}'>{html_text(typeset(metric.line))}</td>"
+        rows.append(f"<tr>{head}{cells}</tr>")
     return f"<table>{''.join(rows)}</table>"
 
 
@@ -201,7 +214,7 @@ def _write(file: str | Path, title: str, sections: "Sequence[tuple[str, str | Pl
 
 
 def _html(plot: "Plot") -> str:
-    """One plot as a part of the page, whose script has been read already."""
+    """One plot as a part of a page that has loaded the script of plotly already."""
     html: str = plot.to_html(
         full_html=False, include_plotlyjs=False, config={"displaylogo": False, "responsive": True}
     )

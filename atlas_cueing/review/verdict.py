@@ -1,4 +1,4 @@
-"""From a log to a verdict."""
+"""The review of a log: all checks and all metrics."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,7 +13,7 @@ from .checks.finite import check_finite
 from .checks.limited_flags import check_limited_flags
 from .checks.log_times import check_log_times
 from .checks.orientation import check_orientation
-from .checks.status import check_status, notes
+from .checks.status import check_status, state_notes
 from .checks.timestamps import check_timestamps
 from .finding import Finding
 from .recorded_run import RecordedRun, open_run
@@ -21,7 +21,7 @@ from .recorded_run import RecordedRun, open_run
 
 @dataclass(frozen=True, slots=True)
 class Review:
-    """What came of a review; `findings` in order of time, those of the whole log first."""
+    """A reviewed log: its findings in order of time (those of the whole log first), and metrics."""
 
     run: RecordedRun
     findings: tuple[Finding, ...]
@@ -30,12 +30,12 @@ class Review:
 
     @property
     def clean(self) -> bool:
-        """Nothing was found."""
+        """Whether nothing was found."""
         return not self.findings
 
     @property
     def verdict(self) -> str:
-        """In a word or two."""
+        """The verdict as text: clean, or how many findings."""
         return (
             "clean"
             if self.clean
@@ -44,12 +44,12 @@ class Review:
 
     @property
     def duration(self) -> float:
-        """From the first tick to the last, s."""
+        """Time from the first tick to the last, s; 0 without ticks."""
         time = self.run.flight.time
         return float(time[-1] - time[0]) if len(time) else 0.0
 
     def to_json(self) -> dict[str, object]:
-        """Everything by name, the unit in the name; a metric may be infinite or NaN."""
+        """The review as JSON, units in the names; a metric may be infinite or NaN."""
         metadata = self.run.log.metadata
         return {
             "verdict": self.verdict,
@@ -68,7 +68,9 @@ class Review:
 
 
 def review_log(path: str | Path) -> Review:
-    """Read a log and judge it by its own numbers, with arithmetic that shares nothing with what wrote it.
+    """Read a log and judge it by its own numbers.
+
+    The checks share no arithmetic with what wrote the log.
 
     Raises InputError when there is no such file, and LogError when it is damaged, not a log of
     ours, or has no platform.
@@ -77,7 +79,7 @@ def review_log(path: str | Path) -> Review:
 
 
 def judge(run: RecordedRun) -> Review:
-    """The review of a run that is open already."""
+    """Review a run whose log is open already."""
     found = [
         *check_status(run),
         *check_timestamps(run),
@@ -95,5 +97,5 @@ def judge(run: RecordedRun) -> Review:
             ]
         figures = evaluate_flight(run.log, run.flight, run.platform).metrics
     found.sort(key=lambda finding: -1.0 if finding.time is None else finding.time)
-    told = (*run.log.notes, *notes(run), *punctuality_notes(run))
-    return Review(run, tuple(found), told, figures)
+    lines = (*run.log.notes, *state_notes(run), *punctuality_notes(run))
+    return Review(run, tuple(found), lines, figures)

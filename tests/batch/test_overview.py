@@ -90,15 +90,15 @@ def test_figures_are_in_units_for_people_and_heads_tell_their_names() -> None:
     )
     ((heads, rows),) = tables(text)
     assert heads == ["run", "force rms m/s²", "direction rms deg", "wheels limited %", "links"]
-    assert rows[0][1:4] == ["1.250", "28.65", "12.3"]
-    assert re.findall(r'<th class="\w*" title="(\w+)"', text) == [
+    assert rows[0][1:4] == ["1.250", "28.648", "12.30"]
+    assert re.findall(r'<th class="\w*" title="(\w+)', text) == [
         "run",
         METRIC,
         ANGLE,
         "wheels_limited_share",
     ]
     assert 'data-v="0.5"' in text  # sorted by the number itself
-    assert f'title="{METRIC}" aria-sort=ascending' in text
+    assert re.search(rf'title="{METRIC}: [^"]+\." aria-sort=ascending', text)
 
 
 def test_what_failed_stands_apart_with_its_reasons() -> None:
@@ -113,8 +113,11 @@ def test_what_failed_stands_apart_with_its_reasons() -> None:
     assert len(good) == 1
     assert heads == ["run", "result", "reason", "links"]
     assert [row[1:3] for row in bad] == [
-        ["crashed", "no"], ["vehicle_failed", "it <fell>"], ["vehicle_failed", "it <fell>"], ["not_flown", ""],
-    ]  # fmt: skip
+        ["crashed", "no"],
+        ["vehicle_failed", "it <fell>"],
+        ["vehicle_failed", "it <fell>"],
+        ["not_flown", ""],
+    ]
     assert "Not flown to the end: 1 crashed, 2 vehicle failed, 1 not flown" in text
     assert "<table>" not in page(FAILED).split("<h2>Not")[0]  # none flew: no empty table
 
@@ -281,7 +284,7 @@ def test_it_fits_the_window_and_a_click_sorts(tmp_path: Path) -> None:
             "[...document.querySelectorAll('table')[0].tBodies[0].rows].map(r =>"
             f" r.cells[{2 + len(keys)}].dataset.v)"
         )
-        head = opened.page.locator(f"th[title={METRIC}]")
+        head = opened.page.locator(f"th[title^={METRIC}]")
         assert head.get_attribute("aria-sort") == "ascending"
         head.click()
         assert opened.page.evaluate(column) == [
@@ -309,3 +312,13 @@ def test_it_fits_the_window_and_a_click_sorts(tmp_path: Path) -> None:
         ) == pytest.approx(0.0, abs=1.0)
         assert opened.page.locator("td.reason").inner_text() == long * 9
         opened.check_alone()
+
+
+@pytest.mark.parametrize(
+    ("time", "text"),
+    [(0.0, "0.0 s"), (59.0, "59.0 s"), (90.0, "1.5 min"), (3599.0, "60.0 min"), (9000.0, "2.5 h")],
+)
+def test_the_length_of_all_flights_reads_well(time: float, text: str) -> None:
+    run = {"run": "a", "scenario": "a", "method": "blend", "result": "ok", "duration_s": time}
+    page = overview([run], [], ["force_rms_m_s2"], "title", [])
+    assert f"<b>{text}</b><span>of flight</span>" in page

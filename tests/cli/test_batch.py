@@ -139,7 +139,7 @@ def test_bad_input_writes_nothing(
             r"force_rms_m_s2, force_p95_m_s2, force_max_m_s2, force_\w+, force_\w+ and \d+ more\?",
         ),
         ("Stage travel", r"stage_travel_max_m\?"),  # as the review writes it
-        ("drift", "allowed: .*|did you mean '.*"),  # in no name
+        ("banana", "allowed: .*|did you mean '.*"),  # in no name
         ("dirction_rms_rad", r"'direction_rms_rad'\?"),
         ("p99", r"extra_rate_p99_rad_s\?"),  # in the middle of a name
     ],

@@ -150,7 +150,7 @@ def bomb(chunks: int) -> bytes:
 
 
 def messages(chunks: int) -> bytes:
-    """True messages of ours, the same one over and over: a gigabyte of columns from a few 100 kB."""
+    """One valid message repeated: a gigabyte of columns from a few 100 kB."""
     written = bytearray()
     container = Container(written.extend)
     channel = container.add_channel("/motion", *schema_of("/motion"))
@@ -200,7 +200,8 @@ for path in sorted(Path().glob("*.mcap")):
     out, err, begun = io.StringIO(), io.StringIO(), time.process_time()
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         status = main(["review", path.name])
-    peak = int(proc.read_text().split("VmHWM:")[1].split()[0]) if proc.exists() else 0  # ru_maxrss begins with the parent's
+    # ru_maxrss begins with the parent's
+    peak = int(proc.read_text().split("VmHWM:")[1].split()[0]) if proc.exists() else 0
     told[path.stem] = [status, out.getvalue(), err.getvalue(), time.process_time() - begun, peak]
 print(json.dumps(told))
 """

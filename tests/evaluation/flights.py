@@ -1,6 +1,6 @@
-"""A flight in which nothing happens, to be changed field by field."""
+"""Flights: one in which nothing happens, to be changed field by field, and random ones."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 
@@ -57,3 +57,32 @@ def column(values: np.ndarray, axis: int) -> np.ndarray:
     vector = np.zeros((len(values), 3))
     vector[:, axis] = values
     return vector
+
+
+def smooth(random: np.random.Generator, count: int, width: int) -> np.ndarray:
+    """A slow wander with some noise on it."""
+    return np.cumsum(random.normal(size=(count, width)), axis=0) * 0.05 + 0.02 * random.normal(
+        size=(count, width)
+    )
+
+
+def any_flight(count: int, seed: int, dt: float = 0.01) -> RunColumns:
+    """Everything moves, the platform after the vehicle; limits come and go."""
+    random = np.random.default_rng(seed)
+    vectors = {
+        field.name: smooth(random, count, 3)
+        for field in fields(RunColumns)
+        if field.name not in ("time", "limited") and "_q_" not in field.name
+    }
+    vectors["felt_w"] = np.roll(vectors["vehicle_w_B"], 4, axis=0) + 0.1 * vectors["felt_w"]
+    vectors["felt_f"] = (
+        np.roll(vectors["vehicle_f_B"], 7, axis=0)
+        + 0.1 * vectors["felt_f"]
+        - np.array([0.0, 0.0, G])
+    )
+    quaternions = {}
+    for name in ("vehicle_q_NB", "cue_q_WS", "motion_q_WS"):
+        q = smooth(random, count, 4) + np.array([1.0, 0.0, 0.0, 0.0])
+        quaternions[name] = q / np.linalg.norm(q, axis=1, keepdims=True)
+    limited = (smooth(random, count, 2) > 0.1).astype(np.float64)
+    return still(count, dt, limited=limited, **vectors, **quaternions)

@@ -13,7 +13,7 @@ from atlas_cueing.evaluation import Consistency, LimitUse, Metrics, RunColumns, 
 from atlas_cueing.evaluation.run_columns import Figures
 from atlas_cueing.signals import StageLimits, WheelLimits
 
-from .flights import G, still
+from .flights import any_flight
 
 TO_WHEELS = np.array([[7.0, -2.0, 1.0], [0.5, 6.0, -3.0], [-1.0, 2.0, 8.0]])
 WHEELS = WheelLimits(
@@ -31,35 +31,6 @@ FIGURES: dict[str, Callable[[], Figures]] = {
     "consistency": lambda: Consistency(TO_WHEELS, np.linalg.inv(TO_WHEELS)),
 }
 every = pytest.mark.parametrize("name", FIGURES)
-
-
-def smooth(random: np.random.Generator, count: int, width: int) -> np.ndarray:
-    """A slow wander with some noise on it."""
-    return np.cumsum(random.normal(size=(count, width)), axis=0) * 0.05 + 0.02 * random.normal(
-        size=(count, width)
-    )
-
-
-def any_flight(count: int, seed: int) -> RunColumns:
-    """Everything moves, the platform after the vehicle; limits come and go."""
-    random = np.random.default_rng(seed)
-    vectors = {
-        field.name: smooth(random, count, 3)
-        for field in fields(RunColumns)
-        if field.name not in ("time", "limited") and "_q_" not in field.name
-    }
-    vectors["felt_w"] = np.roll(vectors["vehicle_w_B"], 4, axis=0) + 0.1 * vectors["felt_w"]
-    vectors["felt_f"] = (
-        np.roll(vectors["vehicle_f_B"], 7, axis=0)
-        + 0.1 * vectors["felt_f"]
-        - np.array([0.0, 0.0, G])
-    )
-    quaternions = {}
-    for name in ("vehicle_q_NB", "cue_q_WS", "motion_q_WS"):
-        q = smooth(random, count, 4) + np.array([1.0, 0.0, 0.0, 0.0])
-        quaternions[name] = q / np.linalg.norm(q, axis=1, keepdims=True)
-    limited = (smooth(random, count, 2) > 0.1).astype(np.float64)
-    return still(count, 0.01, limited=limited, **vectors, **quaternions)
 
 
 def cut(figures: Figures, flight: RunColumns, cuts: list[int]) -> dict[str, float]:
@@ -115,7 +86,7 @@ def test_a_figure_may_be_asked_for_on_the_way(name: str) -> None:
 
 @every
 def test_rows_and_columns_give_the_same_to_the_last_bit(name: str) -> None:
-    """A log that is read whole has its messages in rows, one that is read in blocks has them in columns."""
+    """A log read whole has its messages in rows, one read in blocks has them in columns."""
     flight = any_flight(20_000, 7)
     rows, columns = (
         RunColumns(**{field.name: order(getattr(flight, field.name)) for field in fields(flight)})
@@ -139,7 +110,7 @@ def test_no_ticks_at_all(name: str) -> None:
 
 
 def test_what_is_held_grows_by_quantiles_only() -> None:
-    """Eight columns in single precision and a mark a tick, and the slack of memory that grows in place.
+    """Eight columns in single precision, a mark a tick, and the slack of growing memory.
 
     Looked at after whole pieces of the correlations, which wait for 8192 - 2 * 50 ticks at 100 Hz:
     seven of these blocks.

@@ -6,10 +6,17 @@ import numpy as np
 import pytest
 
 from atlas_cueing.cueing import PreviewParameters
-from atlas_cueing.evaluation.cost import combined, cost
+from atlas_cueing.evaluation import RunColumns, gathered
+from atlas_cueing.evaluation.cost import combined
 from atlas_cueing.evaluation.cues import FORCE_THRESHOLD, RATE_THRESHOLD
+from atlas_cueing.evaluation.deviation import Deviation
 
 from .flights import G, column, sine, still
+
+
+def cost(flight: RunColumns) -> dict[str, float]:
+    figures = gathered(Deviation(), flight)
+    return {name: figures[name] for name in ("cost", "cost_force", "cost_rate")}
 
 
 def test_what_is_felt_as_it_should_be_costs_nothing() -> None:

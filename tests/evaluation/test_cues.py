@@ -11,7 +11,6 @@ from atlas_cueing.evaluation.cues import (
     GAIN_BAND,
     RATE_THRESHOLD,
     CueCounter,
-    cue_shares,
 )
 
 T = 0.17
@@ -20,6 +19,12 @@ NONE, MISSING, FALSE, SCALED = (
     {"missing": float(kind == 0), "false": float(kind == 1), "scaled": float(kind == 2)}
     for kind in (-1, 0, 1, 2)
 )
+
+
+def cue_shares(vehicle: np.ndarray, platform: np.ndarray, threshold: float) -> dict[str, float]:
+    cues = CueCounter(threshold)
+    cues.add(vehicle, platform)
+    return cues.shares()
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -53,7 +58,7 @@ def test_one_tick_of_each_kind(
 
 
 def test_shares_of_a_flight() -> None:
-    """1000 ticks: 100 missing, 200 false (half of them reversed), 50 scaled, the rest as they should be."""
+    """1000 ticks: 100 missing, 200 false (half of them reversed), 50 scaled, the rest right."""
     vehicle, platform = np.zeros(1000), np.zeros(1000)
     vehicle[:100] = 1.0
     platform[200:300] = -1.0
@@ -64,7 +69,7 @@ def test_shares_of_a_flight() -> None:
 
 
 def test_a_sine_of_half_the_size() -> None:
-    """Above the threshold it is scaled, or missing where only half of it is below: arcs of the sine in closed form."""
+    """Above the threshold it is scaled, or missing where its half is below: arcs of a sine."""
     phase = np.arange(100_000) * 2.0 * np.pi / 100_000
     shares = cue_shares(np.sin(phase), 0.5 * np.sin(phase), 0.2)
     above, half_above = (1.0 - 2.0 / np.pi * np.arcsin(x) for x in (0.2, 0.4))
@@ -89,7 +94,10 @@ def test_no_tick_is_of_two_kinds_and_signs_do_not_matter(
 
 @given(signals, st.floats(0.01, 0.5))
 def test_exchanging_vehicle_and_platform(pair: np.ndarray, threshold: float) -> None:
-    """The band is its own reciprocal; what is missing one way is false the other way, except reversed cues: false both ways."""
+    """What is missing one way is false the other way; reversed cues are false both ways.
+
+    The band is its own reciprocal.
+    """
     vehicle, platform = pair
     forth, back = cue_shares(vehicle, platform, threshold), cue_shares(platform, vehicle, threshold)
     assert forth["missing"] + forth["false"] == pytest.approx(

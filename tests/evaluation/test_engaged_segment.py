@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from atlas_cueing.evaluation import engaged_segment, metrics
+from atlas_cueing.evaluation import Metrics, engaged_segment, gathered
 
 from .flights import still
 
@@ -21,7 +21,7 @@ def rows(*changes: tuple[float, str]) -> list[float]:
 def test_without_a_running_state_nothing_is_left_and_it_has_figures() -> None:
     assert rows() == []
     assert rows((0.0, "parked"), (0.3, "engaging")) == []
-    assert metrics(engaged_segment(still(8, 0.125), []))["ticks"] == 0.0
+    assert gathered(Metrics(), engaged_segment(still(8, 0.125), []))["ticks"] == 0.0
 
 
 def test_a_state_begins_with_the_tick_at_which_it_is_told() -> None:

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from atlas_cueing.evaluation import gathered
 from atlas_cueing.evaluation.cues import FORCE_THRESHOLD, RATE_THRESHOLD
-from atlas_cueing.evaluation.fidelity import VARIATION, likeness
+from atlas_cueing.evaluation.fidelity import VARIATION, Fidelity
 from atlas_cueing.evaluation.vestibular import CANALS, OTOLITHS
 
 from .flights import column, still
@@ -27,7 +28,7 @@ def pair(name: str, axis: int, pilot: np.ndarray, rider: np.ndarray) -> dict[str
         side: rest + column(signal, axis)
         for side, signal in zip(SIDES[name], (pilot, rider), strict=True)
     }
-    return likeness(still(N, DT, **changes))
+    return gathered(Fidelity(), still(N, DT, **changes))
 
 
 @each
@@ -85,7 +86,7 @@ def test_perceived_error_is_what_the_organ_makes_of_the_error() -> None:
     """The models are linear, so the difference can go through them in place of both sides."""
     random = np.random.default_rng(2)
     f, g, v, w = np.cumsum(random.normal(size=(4, N, 3)), axis=1) * 0.02
-    figures = likeness(still(N, DT, vehicle_f_B=f, felt_f=g, vehicle_w_B=v, felt_w=w))
+    figures = gathered(Fidelity(), still(N, DT, vehicle_f_B=f, felt_f=g, vehicle_w_B=v, felt_w=w))
     for name, unit, error in (("force", "m_s2", g - f), ("rate", "rad_s", w - v)):
         sensed = np.column_stack([ORGANS[name].sense(error[:, i], DT) for i in range(3)])
         size = np.linalg.norm(sensed, axis=1)
@@ -99,11 +100,11 @@ def test_perceived_error_is_what_the_organ_makes_of_the_error() -> None:
 
 
 def test_weight_is_no_cue() -> None:
-    assert set(likeness(still(N, DT)).values()) == {0.0}
+    assert set(gathered(Fidelity(), still(N, DT)).values()) == {0.0}
 
 
 def test_a_cabin_upside_down_is_a_false_cue_about_heave() -> None:
-    figures = likeness(still(N, DT, felt_f=-still(N).felt_f))
+    figures = gathered(Fidelity(), still(N, DT, felt_f=-still(N).felt_f))
     assert figures["force_z_false_share"] == figures["perceived_force_z_false_share"] == 1.0
     assert figures["force_x_false_share"] == 0.0
     assert figures["perceived_force_rms_m_s2"] == pytest.approx(0.4 * 2.0 * 9.80665)
@@ -123,7 +124,8 @@ def test_delay_is_in_seconds_of_the_flights_own_time() -> None:
     """The same ticks, twice as fast."""
     signals = (column(np.sin(W * T), 1), column(np.sin(W * (T - 0.2)), 1))
     slow, fast = (
-        likeness(still(N, dt, vehicle_w_B=signals[0], felt_w=signals[1])) for dt in (DT, 0.5 * DT)
+        gathered(Fidelity(), still(N, dt, vehicle_w_B=signals[0], felt_w=signals[1]))
+        for dt in (DT, 0.5 * DT)
     )
     assert slow["rate_y_delay_s"] == pytest.approx(0.2, abs=1e-4)
     assert fast["rate_y_delay_s"] == pytest.approx(0.1, abs=1e-4)

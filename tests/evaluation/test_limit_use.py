@@ -3,7 +3,14 @@
 import numpy as np
 import pytest
 
-from atlas_cueing.evaluation import BLOCK_TICKS, limit_use, violations
+from atlas_cueing.evaluation import (
+    BLOCK_TICKS,
+    LimitUse,
+    RunColumns,
+    by_limit,
+    gathered,
+    violations,
+)
 from atlas_cueing.signals import StageLimits, WheelLimits
 
 from .flights import still
@@ -21,6 +28,10 @@ DT = 0.001
 T = np.arange(1001) * DT
 
 
+def limit_use(flight: RunColumns) -> dict[str, float]:
+    return gathered(LimitUse(WHEELS, STAGE), flight)
+
+
 def on_axis(values: np.ndarray, axis: int) -> np.ndarray:
     columns = np.zeros((len(values), 3))
     columns[:, axis] = values
@@ -28,7 +39,7 @@ def on_axis(values: np.ndarray, axis: int) -> np.ndarray:
 
 
 def test_nothing_used_at_rest() -> None:
-    use = limit_use(still(100), WHEELS, STAGE)
+    use = limit_use(still(100))
     assert len(use) == 11
     assert set(use.values()) == {0.0}
     assert violations(use) == []
@@ -36,7 +47,7 @@ def test_nothing_used_at_rest() -> None:
 
 @pytest.mark.parametrize("count", [0, 1, 2])
 def test_very_short_flights(count: int) -> None:
-    assert set(limit_use(still(count), WHEELS, STAGE).values()) == {0.0}
+    assert set(limit_use(still(count)).values()) == {0.0}
 
 
 @pytest.mark.parametrize("axis", [0, 1, 2])
@@ -51,7 +62,7 @@ def test_a_wheel_at_full_jerk(axis: int) -> None:
     flight = still(
         len(T), DT, wheel_speed=on_axis(speed, axis), wheel_acceleration=on_axis(acceleration, axis)
     )
-    use = limit_use(flight, WHEELS, STAGE)
+    use = limit_use(flight)
     assert use["wheel_speed_logged"] == pytest.approx(speed[-1] / WHEELS.speed[axis])
     assert use["wheel_acceleration_logged"] == pytest.approx(1.0)
     assert use["wheel_acceleration_difference"] == pytest.approx(1.0)
@@ -71,7 +82,7 @@ def test_a_stage_axis_at_full_jerk(axis: int) -> None:
         motion_v_W=on_axis(jerk * t**2 / 2.0, axis),
         motion_a_W=on_axis(jerk * t, axis),
     )
-    use = limit_use(flight, WHEELS, STAGE)
+    use = limit_use(flight)
     assert use["stage_jerk_difference"] == pytest.approx(1.0)
     assert use["stage_acceleration_logged"] == pytest.approx(1.0)
     middle = 0.0995  # of the last tick
@@ -96,7 +107,7 @@ def test_a_stage_axis_at_full_jerk(axis: int) -> None:
 def test_a_jump_between_two_ticks_is_a_violation(field: str, caught: set[str]) -> None:
     values = np.zeros((100, 3))
     values[50:, 1] = 0.3
-    use = limit_use(still(100, DT, **{field: values}), WHEELS, STAGE)
+    use = limit_use(still(100, DT, **{field: values}))
     assert {line.split()[0] for line in violations(use)} == caught
 
 
@@ -110,7 +121,7 @@ def test_where_a_block_ends_does_not_matter(field: str, kind: np.ufunc, tick: in
 
     def use(count: int, place: int) -> dict[str, float]:
         values = np.minimum(kind(np.arange(count) - place), 9.0)
-        return limit_use(still(count, 1.0, **{field: on_axis(values, 1)}), WHEELS, STAGE)
+        return limit_use(still(count, 1.0, **{field: on_axis(values, 1)}))
 
     assert use(tick + 500, tick) == use(1000, 500)
 
@@ -119,9 +130,7 @@ def test_uneven_ticks() -> None:
     """A parabola has one acceleration, at any spacing: speed 3 t^2 has the curvature 6."""
     time = np.cumsum(np.random.default_rng(1).uniform(0.5, 1.5, 200)) * 0.01
     flight = still(200, time=time, wheel_speed=on_axis(3.0 * time**2, 0))
-    assert limit_use(flight, WHEELS, STAGE)["wheel_jerk_second_difference"] == pytest.approx(
-        6.0 / 60.0
-    )
+    assert limit_use(flight)["wheel_jerk_second_difference"] == pytest.approx(6.0 / 60.0)
 
 
 def test_violations_name_the_limit_and_the_use() -> None:
@@ -137,6 +146,22 @@ def test_rounding_on_an_hour_of_ticks_is_within_the_tolerance() -> None:
     """Full speed and full acceleration held through times with few digits left after the point."""
     time = 3600.0 + T
     speed = on_axis(6.0 * (time - time[0]), 0)
-    use = limit_use(still(len(T), time=time, wheel_speed=speed), WHEELS, STAGE)
+    use = limit_use(still(len(T), time=time, wheel_speed=speed))
     assert use["wheel_acceleration_difference"] == pytest.approx(1.0)
     assert violations(use) == []
+
+
+def test_a_limit_counts_once_however_it_is_measured() -> None:
+    use = limit_use(still(3))
+    assert by_limit(dict.fromkeys(use, 0.5)) == {
+        "wheel_speed": 0.5,
+        "wheel_acceleration": 0.5,
+        "wheel_jerk": 0.5,
+        "stage_travel": 0.5,
+        "stage_speed": 0.5,
+        "stage_acceleration": 0.5,
+        "stage_jerk": 0.5,
+    }
+    for name in use:
+        (largest,) = {value for value in by_limit({**use, name: 2.0}).values() if value}
+        assert largest == 2.0

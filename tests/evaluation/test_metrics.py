@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from atlas_cueing.evaluation import metrics
+from atlas_cueing.evaluation import Metrics, gathered
 
 from .flights import still
 
@@ -25,7 +25,7 @@ PAIRS = (
 
 
 def test_a_perfect_flight_has_no_errors() -> None:
-    figures = metrics(still(N))
+    figures = gathered(Metrics(), still(N))
     assert figures.pop("ticks") == N
     assert figures.pop("duration_s") == pytest.approx(9.99)
     assert figures.pop("direction_counted_share") == 1.0
@@ -35,18 +35,18 @@ def test_a_perfect_flight_has_no_errors() -> None:
 @pytest.mark.parametrize("count", [0, 1, 2, 3, 5])
 def test_very_short_flights_have_figures_too(count: int) -> None:
     noise = np.random.default_rng(count).normal(size=(count, 3))
-    figures = metrics(still(count, **dict.fromkeys(PAIRS, noise)))
+    figures = gathered(Metrics(), still(count, **dict.fromkeys(PAIRS, noise)))
     assert figures["ticks"] == count
     assert all(np.isfinite(value) for value in figures.values())
 
 
 def test_names_carry_units() -> None:
     bare = {"cost", "cost_force", "cost_rate", "ticks", "turns_roll", "turns_pitch", "turns_yaw"}
-    assert {name for name in metrics(still(3)) if not name.endswith(UNITS)} == bare
+    assert {name for name in gathered(Metrics(), still(3)) if not name.endswith(UNITS)} == bare
 
 
 def test_the_most_telling_come_first() -> None:
-    names = list(metrics(still(3)))
+    names = list(gathered(Metrics(), still(3)))
     for first, then in [
         ("force_rms_m_s2", "direction_rms_rad"),
         ("direction_max_rad", "rate_rms_rad_s"),
@@ -63,7 +63,7 @@ def test_the_most_telling_come_first() -> None:
 
 
 def test_every_axis_has_the_same_figures() -> None:
-    names = set(metrics(still(3)))
+    names = set(gathered(Metrics(), still(3)))
     kinds = {"correlation", "delay_s", "missing_share", "false_share", "scaled_share"}
     for prefix in ("force", "rate", "perceived_force", "perceived_rate"):
         for axis in "xyz":
@@ -76,8 +76,8 @@ def test_every_axis_has_the_same_figures() -> None:
 def test_figures_are_finite_and_shares_are_shares(seed: int, count: int, magnitude: float) -> None:
     random = np.random.default_rng(seed)
     changes = {name: 10.0**magnitude * random.normal(size=(count, 3)) for name in PAIRS}
-    figures = metrics(
-        still(count, limited=random.integers(0, 2, (count, 2)).astype(float), **changes)
+    figures = gathered(
+        Metrics(), still(count, limited=random.integers(0, 2, (count, 2)).astype(float), **changes)
     )
     json.dumps(figures, allow_nan=False)
     assert {type(value) for value in figures.values()} == {float}
@@ -95,7 +95,7 @@ def test_figures_are_finite_and_shares_are_shares(seed: int, count: int, magnitu
 def test_rms_p95_and_max_are_in_order(seed: int, count: int) -> None:
     random = np.random.default_rng(seed)
     changes = {name: random.normal(size=(count, 3)) for name in PAIRS}
-    figures = metrics(still(count, **changes))
+    figures = gathered(Metrics(), still(count, **changes))
     units = {
         "force": "m_s2",
         "direction": "rad",
@@ -113,8 +113,9 @@ def test_a_longer_flight_of_the_same_has_the_same_figures() -> None:
     """Longer than the pieces that are computed at a time."""
     motion = np.random.default_rng(1).normal(size=(10_000, 3))
     once, twice = (
-        metrics(
-            still(10_000 * k, vehicle_f_B=np.tile(motion, (k, 1)), felt_w=np.tile(motion, (k, 1)))
+        gathered(
+            Metrics(),
+            still(10_000 * k, vehicle_f_B=np.tile(motion, (k, 1)), felt_w=np.tile(motion, (k, 1))),
         )
         for k in (1, 2)
     )

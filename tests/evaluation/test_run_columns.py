@@ -73,7 +73,7 @@ def test_every_field_comes_from_its_own_column() -> None:
 
 @pytest.mark.parametrize("count", [0, 1, BLOCK_TICKS, BLOCK_TICKS + 1, 20_000])
 def test_blocks_are_the_flight(count: int) -> None:
-    """Their lengths are counted from the start, and each component is contiguous, whatever the flight's layout."""
+    """Blocks are counted from the start, and contiguous for any layout of the flight."""
     values = np.random.default_rng(count).normal(size=(count, 3))
     flight = still(count, felt_w=values, vehicle_q_NB=np.arange(4.0 * count).reshape(count, 4))
     blocks = list(flight.blocks())

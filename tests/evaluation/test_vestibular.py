@@ -1,4 +1,4 @@
-"""The organs' models: the oracle's frequency responses, and scipy's filters and integrators in the time domain."""
+"""The organs' models against the oracle's frequency responses, and scipy in time."""
 
 import json
 from pathlib import Path
@@ -118,7 +118,7 @@ def test_nothing_starts_up_at_the_start(value: float, dt: float) -> None:
 
 
 def test_canals_forget_a_steady_turn() -> None:
-    """A step of rate is felt at once and forgotten: (5.73 e^(-t/80) ... ) in closed form by partial fractions."""
+    """A step of rate is felt at once and forgotten, in closed form by partial fractions."""
     dt = 0.01
     u = np.concatenate([[0.0], np.ones(40_000)])
     # a ramp over one tick is a step at its middle, to second order

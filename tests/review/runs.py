@@ -1,4 +1,4 @@
-"""A run that is known in closed form: the sphere turns with a rate that itself turns, the stage swings."""
+"""A run known in closed form: the rate of the sphere turns as well, the stage swings."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -83,7 +83,7 @@ def with_states(run: RecordedRun, *states: tuple[float, str, str]) -> RecordedRu
 
 
 def _felt(t: np.ndarray, n: float, s: float, a_W: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Force and rate in cabin FRD, written out: the cabin's axes in W are the columns of Rz(n t) Rx(s t)."""
+    """Force and rate in cabin FRD; its axes in W are the columns of Rz(n t) Rx(s t)."""
     cn, sn, cs, ss = np.cos(n * t), np.sin(n * t), np.cos(s * t), np.sin(s * t)
     x, z = a_W[:, 0], a_W[:, 2] + G
     force = np.column_stack([cn * x, -(-sn * cs * x + ss * z), -(sn * ss * x + cs * z)])

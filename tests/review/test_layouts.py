@@ -1,4 +1,4 @@
-"""The layouts for Foxglove and PlotJuggler name what our logs hold, as an independent reader decodes it."""
+"""The layouts for Foxglove and PlotJuggler name fields that logs have."""
 
 import json
 import re
@@ -14,7 +14,7 @@ TOOLS = Path(__file__).parents[2] / "tools"
 
 @pytest.fixture(scope="module")
 def fields(flight: Path) -> set[tuple[str, str]]:
-    """Topic and field of everything in a log, read with mcap's reader and mcap-protobuf-support's decoder."""
+    """Topics and fields of a log, by mcap's reader and mcap-protobuf-support's decoder."""
     with flight.open("rb") as file:
         first = {
             channel.topic: message

@@ -87,7 +87,7 @@ def test_a_cut_log(log: Path, tmp_path: Path, into: int) -> None:
     ids=["data", "time", "length", "opcode", "compression", "crc"],
 )
 def test_a_damaged_chunk_in_the_middle(log: Path, tmp_path: Path, place: int) -> None:
-    """Wherever the third chunk is hit, the others come back, unless nothing that matters was hit."""
+    """Wherever the third chunk is damaged, the others are recovered."""
     broken = damaged(log, tmp_path, flip(chunk_starts(log)[2] + place))
     with pytest.raises(LogError):
         read_log(broken)
@@ -135,7 +135,7 @@ def test_a_damaged_end(log: Path, tmp_path: Path) -> None:
 
 
 def test_a_damaged_scenario_is_not_passed_on(log: Path, tmp_path: Path) -> None:
-    """An attachment's checksum is looked at: a digit changed in a limit would judge the log by another platform."""
+    """Attachments are checksummed: a changed limit would judge the log by another platform."""
     place = log.read_bytes().index(b"radius_m")
     result = recover_log(damaged(log, tmp_path, flip(place)), tmp_path / "fixed.mcap")
     assert result.ticks == 721
@@ -146,7 +146,7 @@ def test_a_damaged_scenario_is_not_passed_on(log: Path, tmp_path: Path) -> None:
 
 
 def test_a_lost_description(log: Path, tmp_path: Path) -> None:
-    """Cut before the summary, which repeats the channels, and hit in the only description left of one."""
+    """Cut before the summary, and damaged in the only description left of a channel."""
     place, cut = log.read_bytes().index(b"/motion"), chunk_starts(log)[5]
 
     def change(data: bytearray) -> None:
@@ -201,7 +201,7 @@ def test_nowhere_to_write(log: Path, tmp_path: Path) -> None:
 def test_the_part_of_a_killed_run_can_be_recovered_under_its_own_name(
     log: Path, tmp_path: Path
 ) -> None:
-    """Whatever name recover writes under for the time being, it must not be that of the log it reads."""
+    """The temporary file that recover writes must not be the log it reads."""
     part = tmp_path / "flight.mcap.part"
     part.write_bytes(log.read_bytes()[: chunk_starts(log)[7]])
     before = part.read_bytes()

@@ -123,7 +123,8 @@ def test_a_comparison(flight: Path, tmp_path: Path) -> None:
     write_comparison(compare_logs([flight, tmp_path / "other.mcap"]), tmp_path / "both.html")
     body = own_part((tmp_path / "both.html").read_text())
     assert "<h1>blend against attitude</h1>" in body
-    row = r"<tr><td>force rms m/s²</td><td class='number'>[\d.]+</td><td class='number'>[\d.]+</td>"
+    cell = r"<td class='number'>[\d.]+</td>"
+    row = rf"<tr><td title='[^']+'>force rms m/s²</td>{cell}{cell}"
     assert len(re.findall(row, body)) == 2
     assert re.search(row, body).start() < body.index("Over time")  # type: ignore[union-attr]
 

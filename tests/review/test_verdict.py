@@ -45,7 +45,7 @@ def test_a_clean_flight(flight: Path) -> None:
     ["wheel_speed", "wheel_acceleration", "stage_travel", "stage_speed", "stage_acceleration"],
 )
 def test_a_logged_limit_broken_by_a_thousandth(flight: Path, tmp_path: Path, name: str) -> None:
-    """The flight stays as it is and the limit is set a thousandth below what was used, so that nothing else is amiss."""
+    """The limit is set a thousandth below what the same flight used, so nothing else is wrong."""
     used = np.abs(limit_shares(open_run(flight))[name])
     found = review_log(with_limit(flight, tmp_path / "bad.mcap", name, used.max() / 1.001))
     logged = [
@@ -75,7 +75,7 @@ def test_a_logged_limit_broken_by_a_thousandth(flight: Path, tmp_path: Path, nam
 def test_a_limit_broken_by_a_thousandth_between_ticks(
     flight: Path, tmp_path: Path, name: str, place: str
 ) -> None:
-    """Slopes of what is logged, reckoned here once more with numpy's gradient of a single column."""
+    """Slopes of logged columns again, by numpy's gradient of a single column."""
     log = read_log(flight)
     axes = "123" if place.startswith("/wheels") else "xyz"
     topic, field = place.split()[0], place.split()[1]

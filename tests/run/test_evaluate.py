@@ -8,7 +8,14 @@ import numpy as np
 import pytest
 from short_scenario import Load
 
-from atlas_cueing.evaluation import BLOCK_TICKS, RunColumns, consistency, limit_use, metrics
+from atlas_cueing.evaluation import (
+    BLOCK_TICKS,
+    Consistency,
+    LimitUse,
+    Metrics,
+    RunColumns,
+    gathered,
+)
 from atlas_cueing.recording import Log, McapRecorder, read_log
 from atlas_cueing.review import review_log
 from atlas_cueing.run import Evaluator, evaluate_log
@@ -126,13 +133,13 @@ def test_the_figures_in_blocks_are_those_of_the_whole(
     scenario, log = long_log(LONG)
     platform, geometry = scenario.platform, scenario.platform.geometry()
     found, flight = evaluate_log(log, platform), RunColumns.of(read_log(log))
-    expected = metrics(flight) | consistency(
-        flight, geometry.wheels_from_sphere, geometry.sphere_from_wheels
+    expected = gathered(Metrics(), flight) | gathered(
+        Consistency(geometry.wheels_from_sphere, geometry.sphere_from_wheels), flight
     )
     assert found.metrics == expected
     assert list(found.metrics) == list(expected)
-    assert found.limit_use == limit_use(
-        flight, platform.wheel_limit_values(), platform.stage_limit_values()
+    assert found.limit_use == gathered(
+        LimitUse(platform.wheel_limit_values(), platform.stage_limit_values()), flight
     )
 
 

@@ -1,4 +1,4 @@
-"""Do wheels and stage keep their limits, do what the motion says, and move as bodies do?"""
+"""Check of the actuators: limits, wheels against motion, and integrals of each other."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -20,7 +20,11 @@ ROUNDING = 1e-9  # m/s, m, rad/s
 
 @dataclass(frozen=True, slots=True)
 class _Chain:
-    """A position (none for wheels), speed and acceleration, (n, 3) each, and the limits of all and of the jerk."""
+    """Logged position, speed and acceleration of an actuator, and its limits.
+
+    places: names of the columns, by quantity and component; unit: of position, speed, acceleration
+    and jerk; values: (n, 3) each, no position for wheels; limits: of each, and of the jerk.
+    """
 
     places: tuple[Sequence[str], Sequence[str], Sequence[str]]
     unit: tuple[str, str, str, str]
@@ -29,9 +33,10 @@ class _Chain:
 
 
 def check_actuators(run: RecordedRun) -> list[Finding]:
-    """Every limit by logged values and by finite differences; wheels = J^-1 Omega.
+    """Check the actuators.
 
-    Each quantity the integral of the next.
+    Every limit is kept by logged values and by finite differences, each quantity is the integral of
+    the next, and the wheels are J^-1 Omega.
     """
     found = []
     for chain in (_wheels(run), _stage(run)):
@@ -40,9 +45,9 @@ def check_actuators(run: RecordedRun) -> list[Finding]:
 
 
 def limit_shares(run: RecordedRun) -> dict[str, Array]:
-    """Use of each limit as a share of it: `wheel_speed` and so on (n, 3).
+    """Use of each limit at each tick as a share of it, by name: `wheel_speed` and so on (n, 3).
 
-    Jerk by differences of acceleration (n - 1, 3).
+    The jerk is by differences of the acceleration, (n - 1, 3).
     """
     shares: dict[str, Array] = {}
     for name, chain in (("wheel", _wheels(run)), ("stage", _stage(run))):

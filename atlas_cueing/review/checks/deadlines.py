@@ -1,4 +1,4 @@
-"""Was a live run on time, and does its account of that hang together?"""
+"""Check of a live run's timing: do lateness, real time and missed deadlines fit each other?"""
 
 import numpy as np
 
@@ -11,17 +11,20 @@ ROUNDING = 1e-6  # s; time of the run and of the clock are sums of steps in anot
 
 
 def is_live(run: RecordedRun) -> bool:
-    """Whether the log tells how punctual its ticks were."""
+    """Whether the log is of a live run that recorded its timing."""
     return TIMING.name in run.log.tables and len(run.log.tables[TIMING.name].values) > 0
 
 
 def timing(run: RecordedRun, field: str) -> Array:
-    """A column of /timing, as long as the flight."""
+    """A field of /timing (n,), cut to the length of the run."""
     return run.log.column(TIMING.name, field)[: len(run.flight.time)]
 
 
 def check_deadlines(run: RecordedRun) -> list[Finding]:
-    """Real time is behind the run's own by just the deadlines that were missed, and no tick began early."""
+    """Check the timing of a live run.
+
+    Real time is behind the run's own time by the missed deadlines, and no tick began early.
+    """
     if (
         not is_live(run)
         or len(run.flight.time) < 2
@@ -49,15 +52,15 @@ def check_deadlines(run: RecordedRun) -> list[Finding]:
 
 
 def punctuality_notes(run: RecordedRun) -> list[str]:
-    """How late the ticks began, what they took, and how many deadlines were missed."""
+    """Notes on a live run: lateness and cost of its ticks, and its missed deadlines."""
     if not is_live(run):
         return []
     late, cost = 1e6 * timing(run, "lateness_s"), 1e6 * timing(run, "cost_s")
     missed = int(timing(run, "missed_deadlines")[-1])
-    told = [f"{missed} deadlines missed"] if missed else []
+    lines = [f"{missed} deadlines missed"] if missed else []
     for name, values in (("lateness", late), ("tick cost", cost)):
         p50, p99, p999 = np.percentile(values, [50.0, 99.0, 99.9], method="inverted_cdf")
-        told.append(
+        lines.append(
             f"{name} p50 {p50:.0f}, p99 {p99:.0f}, p99.9 {p999:.0f}, max {values.max():.0f} us"
         )
-    return told
+    return lines

@@ -1,4 +1,4 @@
-"""Is what the log says the rider felt what the logged motion makes a rider feel?"""
+"""Check of the felt force: is it what the logged motion makes a rider feel?"""
 
 import numpy as np
 
@@ -15,7 +15,11 @@ _FRD = np.array([1.0, -1.0, -1.0])
 
 
 def check_felt_force(run: RecordedRun) -> list[Finding]:
-    """Specific force and rate at the rider's head in cabin FRD, f = R_SW (a + alpha x r + w x (w x r) - g), and the angle."""
+    """Check specific force and rate at the rider's head, and the angle to the pilot's force.
+
+    In cabin FRD the force is f = R_SW (a + alpha x r + w x (w x r) - g), with r from the sphere's
+    centre to the head.
+    """
     flight = run.flight
     force, rate = felt_again(run)
     angle = _angle(flight.vehicle_f_B, force)
@@ -39,7 +43,7 @@ def check_felt_force(run: RecordedRun) -> list[Finding]:
 
 
 def felt_again(run: RecordedRun) -> tuple[Array, Array]:
-    """Specific force (m/s^2) and rate (rad/s) at the head, cabin FRD, (n, 3) each."""
+    """Specific force (m/s^2) and rate (rad/s) at the head from the motion, cabin FRD, (n, 3)."""
     flight = run.flight
     q, w = flight.motion_q_WS, flight.motion_w_W
     r = turned(q, np.array(run.platform.head_S))
@@ -48,9 +52,9 @@ def felt_again(run: RecordedRun) -> tuple[Array, Array]:
 
 
 def _angle(a: Array, b: Array) -> Array:
-    """Angle between rows, by the half-angle formula.
+    """Angles (n,), rad, between the rows of a and b (n, 3), by the half-angle formula.
 
-    Exact near 0 and near pi, where the cosine is not; 0 where one is zero.
+    It is exact near 0 and near pi, where the cosine is not, and 0 where a row is zero.
     """
     length_a, length_b = (np.linalg.norm(v, axis=1, keepdims=True) for v in (a, b))
     u, v = a * length_b, b * length_a

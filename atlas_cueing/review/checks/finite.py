@@ -1,4 +1,4 @@
-"""Is every logged number one that can be used?"""
+"""Check that every logged number is finite, and every flag 0 or 1."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from ..recorded_run import RecordedRun
 
 
 def check_finite(run: RecordedRun) -> list[Finding]:
-    """Fields that are not finite anywhere, and flags that are neither 0 nor 1."""
+    """Find fields with values that are not finite, and flags that are neither 0 nor 1."""
     found = []
     for topic, table in run.log.tables.items():
         time = (

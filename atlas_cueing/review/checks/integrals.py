@@ -1,8 +1,7 @@
-"""How far a logged quantity may be from the integral of its logged derivative, when only the jerk is bounded.
+"""Bounds on a logged quantity less the integral of its logged derivative.
 
-Between two ticks, h apart, nothing is logged; whatever the motion does there, its jerk keeps its
-limit J. That bounds both quadrature errors rigorously, for any way the actuators go through the
-tick.
+Between two ticks, h apart, nothing is logged; but the jerk keeps its limit J there. That bounds
+both quadrature errors rigorously, however the actuators move within the tick.
 """
 
 from math import sqrt
@@ -18,28 +17,32 @@ TURN = sqrt(3.0) / 54.0
 
 
 def speed_error(a: Array, h: Array, jerk: ArrayLike) -> Array:
-    """Bound on |v1 - v0 - h/2 (a0 + a1)| for each step of a (n, k): (J h^2 - (a1 - a0)^2 / J) / 4."""
+    """Bound on |v1 - v0 - h/2 (a0 + a1)| for each step, (n - 1, k).
+
+    It is (J h^2 - (a1 - a0)^2 / J) / 4, for accelerations a (n, k), steps h (n - 1,) in s, and the
+    limit J of the jerk of each component.
+    """
     J = np.asarray(jerk, dtype=np.float64)
     bound: Array = 0.25 * np.maximum(J * h[:, None] ** 2 - np.diff(a, axis=0) ** 2 / J, 0.0)
     return bound
 
 
 def turn_error(h: Array, jerk: ArrayLike) -> Array:
-    """Bound on |x1 - x0 - `turn`| for each step (n - 1, k)."""
+    """Bound on |x1 - x0 - turn| for each step, (n - 1, k); `turn` is the change expected."""
     bound: Array = TURN * h[:, None] ** 3 * np.asarray(jerk, dtype=np.float64)
     return bound
 
 
 def mean_step(v: Array, h: Array) -> Array:
-    """Change over each step by the trapezoid rule, (n - 1, k)."""
+    """Change (n - 1, k) over each step h (n - 1,) by the trapezoidal rule, from rates v (n, k)."""
     step: Array = 0.5 * h[:, None] * (v[:-1] + v[1:])
     return step
 
 
 def turn(v: Array, a: Array, h: Array) -> Array:
-    """Change over each step by the corrected trapezoid rule.
+    """Change (n - 1, k) over each step h (n - 1,) by the corrected trapezoidal rule.
 
-    H/2 (v0 + v1) + h^2/12 (a0 - a1), (n - 1, k).
+    It is h/2 (v0 + v1) + h^2/12 (a0 - a1), from rates v and accelerations a, (n, k).
     """
     step: Array = mean_step(v, h) + (h * h / 12.0)[:, None] * (a[:-1] - a[1:])
     return step

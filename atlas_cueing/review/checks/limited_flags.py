@@ -1,4 +1,4 @@
-"""Do the flags tell when smoothing could not give what was asked?"""
+"""Check of the flags that say when smoothing could not give what was asked."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ DISTANCE = 1.01e-4  # m
 
 
 def check_limited_flags(run: RecordedRun) -> list[Finding]:
-    """Ticks at which the motion lags behind the cue and no flag says so."""
+    """Find ticks at which the motion lags behind the cue although the flag is 0."""
     flight = run.flight
     free = flight.limited == 0.0
     turn = np.linalg.norm(to_vector(product(flight.cue_q_WS, inverse(flight.motion_q_WS))), axis=1)

@@ -1,4 +1,4 @@
-"""Do log times and /tf, which viewers go by, say the same as the columns?"""
+"""Check that log times and /tf, which viewers use, agree with the columns."""
 
 import numpy as np
 
@@ -14,7 +14,10 @@ TRANSFORMS = 2.0 / 60.0  # s without a /tf, beside a tick; one is due every sixt
 
 
 def check_log_times(run: RecordedRun) -> list[Finding]:
-    """Log time of each message: simulated time from 2000 on or, in a live log, real time elapsed from its start on; and /tf."""
+    """Check the log time of each message, and /tf.
+
+    The log time is simulated time counted from the year 2000, in a live log the real time elapsed.
+    """
     tables = {
         topic.name: run.log.tables[topic.name]
         for topic in LIVE_TOPICS
@@ -23,11 +26,12 @@ def check_log_times(run: RecordedRun) -> list[Finding]:
     found = []
     for topic, table in tables.items():
         if len(table.log_times) == len(table.values) > 0:
-            found += _stamps(run, topic, table.log_times)
+            found += _misfits(run, topic, table.log_times)
     return found + _transforms(run)
 
 
-def _stamps(run: RecordedRun, topic: str, log_times: np.ndarray) -> list[Finding]:
+def _misfits(run: RecordedRun, topic: str, log_times: np.ndarray) -> list[Finding]:
+    """Find log times of a topic (n,), ns, that do not fit its column of time."""
     live = TIMING.name in run.log.tables
     time = run.log.column(topic, "time_s")
     since = run.log.column(TIMING.name, "elapsed_s") if live else time
@@ -50,14 +54,14 @@ def _seconds(log_times: np.ndarray) -> Array:
 
 
 def _start(since: Array, log_times: np.ndarray) -> int:
-    """Wall clock at the start of a live run, by most of the ticks."""
+    """Wall-clock time at the start of a live run, ns, by the median over the ticks."""
     starts = log_times.astype(np.int64) - np.rint(since * 1e9).astype(np.int64)
     # ns since 1970 are more than a double holds
     return int(starts[0]) + int(np.median(starts - starts[0]))
 
 
 def _transforms(run: RecordedRun) -> list[Finding]:
-    """/tf is the motion of the tick with the same log time, about sixty times a second."""
+    """Check that /tf is the motion of the tick with the same log time, sixty times a second."""
     poses, motion, flight = run.log.transforms, run.log.tables["/motion"], run.flight
     if poses is None or len(motion.log_times) != len(flight.time) or not len(flight.time):
         return []

@@ -1,4 +1,4 @@
-"""Is the sphere where its rate and its wheels have turned it?"""
+"""Check of the orientation: is the sphere where its rate and its wheels have turned it?"""
 
 import numpy as np
 
@@ -16,9 +16,9 @@ DRIFT = 10.0
 
 
 def check_orientation(run: RecordedRun) -> list[Finding]:
-    """Norm and sign of each quaternion.
+    """Check norm and sign of every quaternion, and the orientation as an integral.
 
-    The orientation as the integral of Omega, and of the wheels alone (Eq. 18, 20).
+    It is that of Omega, and of what the wheels alone make of Omega (Eq. 18, 20).
     """
     flight = run.flight
     found = []
@@ -54,7 +54,9 @@ def check_orientation(run: RecordedRun) -> list[Finding]:
 
 
 def unexplained(run: RecordedRun, w_W: Array, alpha_W: Array) -> Array:
-    """Rotation vector (W, rad, (n - 1, 3)) by which each tick turned the sphere other than the rate w_W says.
+    """Rotation vectors (n - 1, 3), rad, W, of the part of each turn that the rate does not explain.
+
+    w_W, alpha_W: rate (rad/s) and acceleration (rad/s^2) of the sphere at the ticks, (n, 3).
 
     The turn over a tick is the corrected trapezoid plus the Magnus commutator h^2/12 w1 x w0 of q'
     = 1/2 Omega o q.
@@ -65,9 +67,10 @@ def unexplained(run: RecordedRun, w_W: Array, alpha_W: Array) -> Array:
 
 
 def tick_error(run: RecordedRun) -> Array:
-    """Largest turn of a tick (rad, (n - 1, 1)) that logged rates and accelerations cannot explain while the jerk is kept.
+    """Bound (n - 1, 1), rad, on what rates and accelerations leave unexplained of each turn.
 
-    The wheels' bound through J, and as much again of the commutator when the axis turns through the angle |Omega| h.
+    It holds while the wheels keep their limit of jerk: their bound through J, and as much again of
+    the commutator when the axis turns through the angle |Omega| h.
     """
     h = np.diff(run.flight.time)[:, None]
     jerk = np.linalg.norm(
@@ -80,7 +83,7 @@ def tick_error(run: RecordedRun) -> Array:
 
 
 def _wheel_drift(run: RecordedRun, allowed: Array) -> list[Finding]:
-    """The wheels alone, integrated from the first orientation on, against the logged one.
+    """Check the wheels alone, integrated from the first orientation on, against the logged one.
 
     To first order the difference is the sum of what each tick leaves unexplained, carried along
     with the cabin.
@@ -95,7 +98,11 @@ def _wheel_drift(run: RecordedRun, allowed: Array) -> list[Finding]:
 
 
 def _flips(place: str, time: Array, q: Array) -> list[Finding]:
-    """Turns of sign: q and -q are one orientation, but a log that changes between them draws and interpolates wrongly."""
+    """Find changes of sign.
+
+    q and -q are one orientation, but viewers draw and interpolate a log that changes between them
+    wrongly.
+    """
     along = np.sum(q[:-1] * q[1:], axis=1)
     return exceeding(
         "sign flips", [place], time[1:], np.minimum(along, 0.0), 0.0, "", quantity="-q0.q1"

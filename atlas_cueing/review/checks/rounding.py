@@ -1,4 +1,4 @@
-"""How far recorded times may be off by rounding alone."""
+"""Bound on the rounding of recorded times."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ COARSEST = 1e-6  # s; stamps of microseconds are rounded by half of it, coarser 
 
 
 def rounding(time: Array) -> Array:
-    """Bound (n,), s, of what rounding does to times (n,), s, that are k dt up to rounding.
+    """Bound (n,), s, on the rounding of times (n,), s, that are multiples of one step but for it.
 
     Stamps rounded to whole ns or us, or kept as seconds since 1970 in a double (119 ns), are off an
     even grid by a quarter of their resolution in the middle and half of it at most; so four times

@@ -1,4 +1,4 @@
-"""How did the run go by its own account, and does the account fit what was recorded?"""
+"""Check of the run's result and states, and whether they fit what was recorded."""
 
 import numpy as np
 
@@ -8,16 +8,15 @@ from ..finding import Finding, exceeding
 from ..own_rotations import inverse, product, to_vector
 from ..recorded_run import RecordedRun
 
-# States that say all is well. Others are told as notes, and those that say something broke are
-# findings.
+# States in which all is well. The others become notes, and those of a failure findings.
 CALM = ("running", "done")
 BROKEN = ("fail", "fault", "interrupt", "stopped")
-# a run notes jumps from 0.5 deg on; near that bound two ways of reckoning may differ
+# rad; a run reports jumps from 0.5 deg on; near that bound two ways of computing may differ
 JUMP = np.radians(0.6)
 
 
 def check_status(run: RecordedRun) -> list[Finding]:
-    """The run's result, states of failure, and jumps of the vehicle's attitude that no state tells of."""
+    """Check the result, the states of failure, and jumps of attitude that no state reports."""
     metadata = run.log.metadata
     result, reason = metadata.get("result", ""), metadata.get("reason", "")
     found = []
@@ -40,23 +39,23 @@ def check_status(run: RecordedRun) -> list[Finding]:
     ]
     if not len(run.flight.time):
         found.append(Finding("empty", "/motion", None, "no tick was recorded"))
-    return found + _untold_jumps(run)
+    return found + _unreported_jumps(run)
 
 
-def notes(run: RecordedRun) -> list[str]:
-    """What a reader should know that is no fault: each spell of another state."""
-    told = []
-    for begin, end, status in spells(run):
+def state_notes(run: RecordedRun) -> list[str]:
+    """Notes on the intervals of states other than calm ones and failures."""
+    lines = []
+    for begin, end, status in state_intervals(run):
         if not _is_broken(status):
             until = "" if end is None else f" to {end:.6f}"
-            told.append(f"{begin:.6f}{until} s {status.state}: {status.reason}".rstrip(": "))
-    return told
+            lines.append(f"{begin:.6f}{until} s {status.state}: {status.reason}".rstrip(": "))
+    return lines
 
 
-def spells(run: RecordedRun) -> list[tuple[float, float | None, StateChange]]:
-    """Each spell of a state that is not calm: when it began and ended, s (None.
+def state_intervals(run: RecordedRun) -> list[tuple[float, float | None, StateChange]]:
+    """Intervals of the states that are not calm: begin and end, s, and the change to the state.
 
-    Never), and what was said of it.
+    The end is None where the state lasted to the end of the run.
     """
     ends = [*(status.time for status in run.log.statuses[1:]), None]
     return [
@@ -70,24 +69,27 @@ def _is_broken(status: StateChange) -> bool:
     return any(word in status.state.lower() for word in BROKEN)
 
 
-def _untold_jumps(run: RecordedRun) -> list[Finding]:
-    """Ticks at which the vehicle turned by more than its body rates explain, outside every spell that the log tells of."""
+def _unreported_jumps(run: RecordedRun) -> list[Finding]:
+    """Find ticks at which the vehicle turned by more than its body rates explain.
+
+    Ticks in an interval of a state that is not calm do not count.
+    """
     flight = run.flight
     if len(flight.time) < 2:
         return []
     q, w, h = flight.vehicle_q_NB, flight.vehicle_w_B, np.diff(flight.time)[:, None]
     step = to_vector(product(inverse(q[:-1]), q[1:])) - 0.5 * h * (w[:-1] + w[1:])
-    untold = np.where(_calm(run, flight.time[1:]), np.linalg.norm(step, axis=1), 0.0)
+    unreported = np.where(_calm(run, flight.time[1:]), np.linalg.norm(step, axis=1), 0.0)
     check = "attitude jumps and no state tells of it"
     return exceeding(
-        check, ["/vehicle q_nb"], flight.time[1:], untold, JUMP, "rad", quantity="step"
+        check, ["/vehicle q_nb"], flight.time[1:], unreported, JUMP, "rad", quantity="step"
     )
 
 
 def _calm(run: RecordedRun, time: Array) -> np.ndarray:
-    """Whether no state but calm ones held or began at each time.
+    """Whether only calm states held or began at each time (n,), s.
 
-    Without any states all are calm.
+    Without any states all times are calm.
     """
     statuses = sorted(run.log.statuses, key=lambda status: status.time)
     calm = np.array([True, *(status.state in CALM for status in statuses)])

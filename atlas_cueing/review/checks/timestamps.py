@@ -1,4 +1,4 @@
-"""Is time whole? Every topic has every tick, and the ticks are one step apart."""
+"""Check of time: every topic has every tick, and the ticks are one step apart."""
 
 import numpy as np
 
@@ -11,7 +11,11 @@ GAP = 1.5  # steps; from here on a tick is missing
 
 
 def check_timestamps(run: RecordedRun) -> list[Finding]:
-    """Ticks missing from one topic or from all, topics that disagree on the time, time that is uneven or runs back."""
+    """Check the times of all topics.
+
+    Findings are ticks missing from one topic or from all, topics that disagree on the time, and
+    time that is uneven or runs back.
+    """
     times = {topic: run.log.column(topic, "time_s") for topic in TOPICS}
     counts = {topic: len(time) for topic, time in times.items()}
     if len(set(counts.values())) > 1:
@@ -52,7 +56,7 @@ def check_timestamps(run: RecordedRun) -> list[Finding]:
 
 
 def _back(time: np.ndarray, steps: np.ndarray) -> list[Finding]:
-    """Where time makes its longest step back, or stands still."""
+    """Finding at the longest step of time backwards, or where time stands still."""
     worst, count = int(np.argmin(steps)), int(np.count_nonzero(steps <= 0.0))
     often = f" (the worst of {count} steps)" if count > 1 else ""
     text = f"step = {steps[worst]:.9g} s, allowed: step > 0{often}"
@@ -60,7 +64,7 @@ def _back(time: np.ndarray, steps: np.ndarray) -> list[Finding]:
 
 
 def _lost(times: dict[str, np.ndarray], counts: dict[str, int]) -> Finding:
-    """Where the shortest topic first lacks a tick that the longest has."""
+    """Finding at the first tick that the longest topic has and the shortest lacks."""
     few, many = min(counts, key=lambda t: counts[t]), max(counts, key=lambda t: counts[t])
     short, long = times[few], times[many]
     same = short == long[: len(short)]

@@ -1,4 +1,4 @@
-"""Fewer points for the eye, with every peak kept."""
+"""Downsampling of plots that keeps every peak."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,10 +9,11 @@ POINTS = 4000  # most points of one trace; a screen has half as many columns
 
 
 def thinned(values: Array, points: int = POINTS) -> NDArray[np.int64]:
-    """Rows of `values` (n, k) to draw, in order, at most `points`.
+    """Indices, in order, of the rows of `values` (n, k) to draw, at most `points`.
 
-    All when they are few; else the first, the last, and where each column is lowest and highest in
-    each of equal stretches. NaN counts as the lowest, so that a gap in the drawing stays.
+    They are all rows when these are few; else the first, the last, and those where a column is
+    lowest or highest in each of equal stretches. NaN counts as the lowest, so that a gap in the
+    drawing stays.
     """
     n, k = values.shape
     if n <= points:

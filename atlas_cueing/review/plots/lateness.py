@@ -1,4 +1,4 @@
-"""How punctual a live run was. Plots are made here and in `plots`, and nowhere else."""
+"""Plot of how punctual a live run was."""
 
 from typing import Any
 
@@ -10,16 +10,13 @@ from ...rotations import Array
 from ..checks.deadlines import timing
 from ..recorded_run import RecordedRun
 from .downsample import thinned
-from .time_series import SERIES, coloured, line, styled
+from .style import SERIES, coloured, line, styled
 
 _BINS = 120
 
 
 def punctuality(run: RecordedRun) -> Any:
-    """Lateness and cost of the ticks: how often, and when.
-
-    Age of the input and missed deadlines beside them.
-    """
+    """Histogram of lateness and tick cost, and these, input age and missed deadlines over time."""
     late, cost, age, missed = (
         coloured(name, SERIES[k])
         for k, name in enumerate(("lateness", "tick cost", "input age", "missed"))
@@ -48,7 +45,7 @@ def punctuality(run: RecordedRun) -> Any:
 
 
 def _histogram(values: Array) -> tuple[Array, Array]:
-    """Counts and lower edges of bins that widen with their place, 1 us to 0.1 s."""
+    """Counts and lower edges of logarithmic bins from 1 us to 0.1 s, for values (n,) in us."""
     edges = np.geomspace(1.0, 1e5, _BINS + 1)
     counts, _ = np.histogram(np.clip(values, edges[0], edges[-1]), edges)
     return counts.astype(np.float64), edges[:-1]

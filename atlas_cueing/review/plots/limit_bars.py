@@ -1,4 +1,4 @@
-"""How much of each limit was used."""
+"""Plot of the use of each limit."""
 
 from typing import Any
 
@@ -7,7 +7,7 @@ import plotly.graph_objects as go
 
 from ..checks.actuators import limit_shares
 from ..recorded_run import RecordedRun
-from .time_series import AXES, FAULT, styled
+from .style import AXES, FAULT, styled
 
 
 def limit_bars(run: RecordedRun) -> Any:

@@ -1,4 +1,4 @@
-"""The way of stage and cabin in space."""
+"""Plot of the paths of stage and cabin in space."""
 
 from typing import Any
 
@@ -10,16 +10,16 @@ from ...rotations import Array
 from ..own_rotations import turned
 from ..recorded_run import RecordedRun
 from .downsample import thinned
-from .time_series import AXES, styled
+from .style import AXES, styled
 
 _TRAVEL, _STAGE, _BALL = "#9aa5b1", "#1b2733", "#c8d3df"
 _EYE = {"x": -1.35, "y": -1.35, "z": 0.9}  # from behind on the right: forward is away, left is left
 
 
 def in_space(run: RecordedRun) -> Any:
-    """The stage's path in its box, and where nose and crown of the cabin have pointed.
+    """The stage's path in its travel, and the directions of the cabin's nose and crown.
 
-    A dot where each began.
+    A dot marks where each path begins.
     """
     flight, travel = run.flight, np.array(run.platform.stage_limit_values().travel)
     titles = ["stage in its travel, m", "directions of the cabin's nose and crown"]
@@ -28,14 +28,14 @@ def in_space(run: RecordedRun) -> Any:
     )
     figure.add_trace(_path(_box(travel), "travel", _TRAVEL), row=1, col=1)
     figure.add_trace(_ball(), row=1, col=2)
-    ways = [(flight.motion_p_W, "stage", _STAGE, 1)]
+    paths = [(flight.motion_p_W, "stage", _STAGE, 1)]
     for name, axis, colour in (
         ("nose", (1.0, 0.0, 0.0), AXES[0]),
         ("crown", (0.0, 0.0, 1.0), AXES[2]),
     ):
         tips = turned(flight.motion_q_WS, np.array(axis)) if len(flight.time) else np.empty((0, 3))
-        ways.append((tips, name, colour, 2))
-    for points, name, colour, column in ways:
+        paths.append((tips, name, colour, 2))
+    for points, name, colour, column in paths:
         figure.add_trace(_path(points[thinned(points)], name, colour), row=1, col=column)
         figure.add_trace(
             _path(points[:1], name, colour).update(mode="markers", marker_size=5, showlegend=False),
@@ -48,7 +48,7 @@ def in_space(run: RecordedRun) -> Any:
 
 
 def _box(half: Array) -> Array:
-    """A line along all edges of a box (some twice)."""
+    """Points of a line along all edges of a box of half sizes (3,), along some of them twice."""
     x, y, z = half
     base = [(-x, -y), (x, -y), (x, y), (-x, y), (-x, -y)]
     corners = [(*c, -z) for c in base] + [(*c, z) for c in base]
@@ -71,7 +71,7 @@ def _path(points: Array, name: str, colour: str) -> Any:
 
 
 def _ball() -> Any:
-    """A faint sphere, so that a path on it can be placed."""
+    """A faint sphere on which the directions lie."""
     u, v = np.meshgrid(np.linspace(0.0, 2.0 * np.pi, 33), np.linspace(0.0, np.pi, 17))
     x, y, z = (
         np.asarray(c, dtype=np.float32)

@@ -1,4 +1,4 @@
-"""Power spectra of what vehicle and rider felt."""
+"""Plot of the power spectra of what pilot and rider feel."""
 
 from typing import Any
 
@@ -7,7 +7,7 @@ from plotly.subplots import make_subplots
 
 from ..recorded_run import RecordedRun
 from .downsample import thinned
-from .time_series import DEGREES, FELT, VEHICLE, line, styled
+from .style import DEGREES, FELT, VEHICLE, line, styled
 
 # s; resolves 0.05 Hz (assumed: half the lowest frequency that motion cueing is tested at)
 SEGMENT = 20.0
@@ -15,7 +15,10 @@ DECADES = 10.0  # of power shown below the largest; under that is rounding
 
 
 def spectra(run: RecordedRun) -> Any:
-    """Power spectra of specific force and rate, vehicle against rider, summed over the axes (Welch, segments of 20 s)."""
+    """Power spectra of specific force and rate, vehicle and rider, summed over the axes.
+
+    By Welch's method with segments of `SEGMENT`.
+    """
     from scipy.signal import welch
 
     flight = run.flight

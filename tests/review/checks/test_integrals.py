@@ -9,7 +9,7 @@ FINE = 20_000  # steps within one tick
 
 
 def flown(jerk: np.ndarray, h: float, a0: float, v0: float) -> tuple[float, float, float]:
-    """Acceleration, speed and way at the end of a tick of any jerk (pieces of equal length), exactly."""
+    """Exact acceleration, speed and distance after a tick whose jerk has equal pieces."""
     a, v, x, dt = a0, v0, 0.0, h / len(jerk)
     for j in jerk:
         x += v * dt + a * dt**2 / 2 + j * dt**3 / 6

@@ -1,4 +1,7 @@
-"""Orientation checks on a motion known in closed form, in which body and base rates and the order of turns all matter."""
+"""Orientation checks on a motion known in closed form.
+
+Body and base rates and the order of turns all matter in it.
+"""
 
 from dataclasses import replace
 
@@ -53,7 +56,7 @@ def test_wheels_that_creep_are_found_by_their_sum_alone() -> None:
 
 
 def test_drift_is_told_as_an_angle() -> None:
-    """1 mrad/s about the cabin's own x: after 6 s it is 6 mrad, however the cabin has turned meanwhile."""
+    """1 mrad/s about the cabin's own x: 6 mrad after 6 s, however the cabin has turned."""
     run = coning()
     extra = turned(run.flight.motion_q_WS, np.array([1e-3, 0.0, 0.0])) @ run.wheels_from_sphere().T
     (found,) = check_orientation(

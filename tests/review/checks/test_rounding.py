@@ -40,7 +40,7 @@ def test_rounded_times_are_clean(flight: Path, tmp_path: Path, name: str, topic:
 
 @pytest.mark.parametrize("name", ["whole us", "seconds since 1970"])
 def test_a_flight_with_rounded_times_is_cued_anew(flight: Path, tmp_path: Path, name: str) -> None:
-    """Its step is that of the whole flight: the first one, a hundredth of a us off, would lead away from it."""
+    """Its step is that of the whole flight: the first one is off by a hundredth of a us."""
     corrupted(flight, tmp_path / "x.mcap", times(ROUNDINGS[name], ""))
     cue_again(tmp_path / "x.mcap", [], tmp_path / "again.mcap")
     assert review_log(tmp_path / "again.mcap").findings == ()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from atlas_cueing.review import RecordedRun
-from atlas_cueing.review.checks.status import JUMP, check_status, notes
+from atlas_cueing.review.checks.status import JUMP, check_status, state_notes
 from atlas_cueing.review.own_rotations import from_vector, product
 
 from ..runs import coning, with_flight, with_states
@@ -22,7 +22,7 @@ def jumped(angle: float) -> RecordedRun:
 
 def test_a_calm_run() -> None:
     assert check_status(coning()) == []
-    assert notes(coning()) == []
+    assert state_notes(coning()) == []
 
 
 @pytest.mark.parametrize(("angle", "count"), [(0.9 * JUMP, 0), (1.1 * JUMP, 1), (3.0, 1)])
@@ -56,7 +56,7 @@ def test_states_of_failure(state: str) -> None:
     run = with_states(coning(), (0.0, "running", ""), (2.0, state, "why"))
     (found,) = check_status(run)
     assert str(found) == f"2.000000 s /status: fault: {state}: why"
-    assert notes(run) == []
+    assert state_notes(run) == []
 
 
 def test_the_result_is_told_once() -> None:
@@ -77,5 +77,5 @@ def test_other_states_are_notes() -> None:
         (2.0, "running", ""),
         (5.0, "PARKING", ""),
     )
-    assert notes(run) == ["1.000000 to 2.000000 s HOLDING: input stale", "5.000000 s PARKING"]
+    assert state_notes(run) == ["1.000000 to 2.000000 s HOLDING: input stale", "5.000000 s PARKING"]
     assert check_status(run) == []

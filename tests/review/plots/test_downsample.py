@@ -15,7 +15,7 @@ def test_few_rows_are_all_kept() -> None:
 
 @given(st.integers(0, 10_000), st.integers(1, 3), st.integers(50, 400))
 def test_every_peak_is_kept(seed: int, columns: int, points: int) -> None:
-    """Highest and lowest of each column survive, overall and in any stretch that is longer than two of the drawing's."""
+    """Highest and lowest of each column survive, overall and in any long stretch."""
     values = np.random.default_rng(seed).normal(size=(3000, columns))
     kept = thinned(values, points)
     assert len(kept) <= points

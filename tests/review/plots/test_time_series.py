@@ -10,9 +10,11 @@ import pytest
 from atlas_cueing.review import judge, review_log
 from atlas_cueing.review.plots.downsample import POINTS
 from atlas_cueing.review.plots.limit_bars import limit_bars
+from atlas_cueing.review.plots.overlays import overlays
 from atlas_cueing.review.plots.space import in_space
 from atlas_cueing.review.plots.spectra import SEGMENT, spectra
-from atlas_cueing.review.plots.time_series import AXES, FAULT, over_time, overlays
+from atlas_cueing.review.plots.style import AXES, FAULT
+from atlas_cueing.review.plots.time_series import over_time
 
 from ..runs import coning, with_flight, with_states
 
@@ -130,7 +132,10 @@ def test_bars_show_the_largest_use() -> None:
 
 @pytest.mark.parametrize("dt", [0.01, 0.001])
 def test_spectra_resolve_the_same_at_any_rate(dt: float) -> None:
-    """A sine of amplitude 2 m/s² at 0.5 Hz has a power of 2 (m/s²)² there, which a Hann window spreads over 1.5 bins."""
+    """A sine of amplitude 2 m/s² at 0.5 Hz has a power of 2 (m/s²)² there.
+
+    A Hann window spreads it over 1.5 bins.
+    """
     run = coning(round(60.0 / dt) + 1, dt)
     force = np.zeros((len(run.flight.time), 3))
     force[:, 1] = 2.0 * np.sin(np.pi * run.flight.time)

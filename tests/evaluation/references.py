@@ -1,0 +1,285 @@
+"""The metrics again, from the columns of a whole run, by numpy and scipy.
+
+Nothing is shared with the classes that compute them in blocks but the names, the thresholds and the
+units of the cost.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy import signal
+from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicHermiteSpline
+from scipy.spatial.transform import Rotation
+
+from atlas_cueing.evaluation import RunColumns
+from atlas_cueing.evaluation.correlation import WINDOW
+from atlas_cueing.evaluation.cues import FORCE_THRESHOLD, GAIN_BAND, RATE_THRESHOLD
+from atlas_cueing.signals import StageLimits, WheelLimits
+
+from .flights import G
+
+Figures = dict[str, float]
+NOD = 1.0  # rad/s
+FORCE_UNIT, RATE_UNIT = 0.17, np.radians(3.0)
+
+
+def norm(v: np.ndarray) -> np.ndarray:
+    return np.linalg.norm(v, axis=-1)
+
+
+def rms(x: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(np.square(x)))) if len(x) else 0.0
+
+
+def quantile(x: np.ndarray, share: float) -> float:
+    return float(np.quantile(x, share)) if len(x) else 0.0
+
+
+def spread(name: str, unit: str, x: np.ndarray) -> Figures:
+    return {
+        f"{name}_rms_{unit}": rms(x),
+        f"{name}_p95_{unit}": quantile(x, 0.95),
+        f"{name}_max_{unit}": float(np.max(x, initial=0.0)),
+    }
+
+
+def rotations(q: np.ndarray) -> Rotation:
+    return Rotation.from_quat(q, scalar_first=True)
+
+
+def vehicle_attitude(flight: RunColumns) -> np.ndarray:
+    """q_WS (n, 4) of a cabin that stands in W as the vehicle in N, its first heading left out."""
+    vehicle, flip = rotations(flight.vehicle_q_NB), Rotation.from_euler("X", np.pi)
+    heading = Rotation.from_euler("Z", vehicle[0].as_euler("ZYX")[0])
+    q_WS = (flip * heading.inv() * vehicle * flip).as_quat(scalar_first=True)
+    return q_WS * np.where(np.sum(q_WS * flight.motion_q_WS, axis=1) < 0.0, -1.0, 1.0)[:, None]
+
+
+def deviation(flight: RunColumns) -> Figures:
+    f, g = flight.vehicle_f_B, flight.felt_f
+    counted = (norm(f) > 0.1 * G) & (norm(g) > 0.1 * G)
+    angle = np.arctan2(norm(np.cross(f, g)), np.sum(f * g, axis=1))[counted]
+    turn = rotations(vehicle_attitude(flight)).inv() * rotations(flight.motion_q_WS)
+    return {
+        **spread("force", "m_s2", norm(g - f)),
+        **spread("direction", "rad", angle),
+        "direction_counted_share": float(np.mean(counted)),
+        **spread("rate", "rad_s", norm(flight.felt_w - flight.vehicle_w_B)),
+        **spread("attitude", "rad", turn.magnitude()),
+    }
+
+
+def cost(flight: RunColumns) -> Figures:
+    force = rms(norm(flight.felt_f - flight.vehicle_f_B)) / FORCE_UNIT
+    rate = rms(norm(flight.felt_w - flight.vehicle_w_B)) / RATE_UNIT
+    return {"cost": float(np.hypot(force, rate)), "cost_force": force, "cost_rate": rate}
+
+
+def extra_rate(flight: RunColumns) -> Figures:
+    rate = norm(flight.felt_w - flight.vehicle_w_B)[flight.limited[:, 0] == 0.0]
+    return {
+        "extra_rate_rms_rad_s": rms(rate),
+        "extra_rate_p99_rad_s": quantile(rate, 0.99),
+        "extra_rate_max_rad_s": float(np.max(rate, initial=0.0)),
+    }
+
+
+def turning(flight: RunColumns) -> Figures:
+    figures: Figures = {}
+    for name, w in (("coriolis", flight.felt_w), ("vehicle_coriolis", flight.vehicle_w_B)):
+        coupling = norm(np.cross(w, [0.0, NOD, 0.0]))
+        figures[f"{name}_rms_rad_s2"] = rms(coupling)
+        figures[f"{name}_p95_rad_s2"] = quantile(coupling, 0.95)
+    turns = np.trapezoid(flight.felt_w, flight.time, axis=0) / (2.0 * np.pi)
+    names = ("turns_roll", "turns_pitch", "turns_yaw")
+    return figures | dict(zip(names, turns.tolist(), strict=True))
+
+
+def effort(flight: RunColumns) -> Figures:
+    turn = rotations(flight.cue_q_WS).inv() * rotations(flight.motion_q_WS)
+    distance = norm(flight.cue_p_W - flight.motion_p_W)
+    added_w = np.diff(flight.motion_w_W - flight.cue_w_W, axis=0)
+    alpha = norm(added_w) / np.diff(flight.time)
+    near = np.array([np.convolve(flag, np.ones(3), "same") for flag in flight.limited.T]) > 0.5
+    added_a = norm(flight.motion_a_W - flight.cue_a_W)[~near[1]]
+    return {
+        "cue_lag_rms_rad": rms(turn.magnitude()),
+        "cue_lag_max_rad": float(np.max(turn.magnitude())),
+        "cue_lag_rms_m": rms(distance),
+        "cue_lag_max_m": float(np.max(distance)),
+        "wheels_limited_share": float(np.mean(flight.limited[:, 0])),
+        "stage_limited_share": float(np.mean(flight.limited[:, 1])),
+        "added_angular_acceleration_rms_rad_s2": rms(alpha[~near[0, 1:]]),
+        "added_stage_acceleration_rms_m_s2": rms(added_a),
+        "wheel_speed_max_rad_s": float(np.max(np.abs(flight.wheel_speed))),
+        "wheel_acceleration_max_rad_s2": float(np.max(np.abs(flight.wheel_acceleration))),
+        "stage_travel_max_m": float(np.max(np.abs(flight.motion_p_W))),
+        "stage_speed_max_m_s": float(np.max(np.abs(flight.motion_v_W))),
+        "stage_acceleration_max_m_s2": float(np.max(np.abs(flight.motion_a_W))),
+    }
+
+
+def correlation(reference: np.ndarray, delayed: np.ndarray, dt: float) -> tuple[float, float]:
+    """Peak and delay, with Pearson's correlation at each shift by itself."""
+    n = len(reference)
+    most = min(round(WINDOW / dt), n // 4)
+    values = np.array(
+        [
+            np.corrcoef(reference[max(-s, 0) : n - max(s, 0)], delayed[max(s, 0) : n + min(s, 0)])[
+                0, 1
+            ]
+            for s in range(-most, most + 1)
+        ]
+    )
+    k = int(np.argmax(values))
+    if not 0 < k < len(values) - 1:
+        return float(values[k]), (k - most) * dt
+    bend, slope, height = np.polyfit([-1.0, 0.0, 1.0], values[k - 1 : k + 2], 2)
+    vertex = -0.5 * slope / bend
+    return float(np.clip(height + 0.5 * slope * vertex, -1.0, 1.0)), (k - most + vertex) * dt
+
+
+def cue_shares(vehicle: np.ndarray, platform: np.ndarray, threshold: float) -> Figures:
+    """Shares of missing, false and scaled cues, tick by tick."""
+    kinds = [_kind(a, b, threshold) for a, b in zip(vehicle, platform, strict=True)]
+    return {kind: kinds.count(kind) / len(kinds) for kind in ("missing", "false", "scaled")}
+
+
+def _kind(vehicle: float, platform: float, threshold: float) -> str:
+    asked, given = abs(vehicle) > threshold, abs(platform) > threshold
+    if asked and not given:
+        return "missing"
+    if given and (not asked or vehicle * platform < 0.0):
+        return "false"
+    low, high = GAIN_BAND
+    return "scaled" if asked and not low <= platform / vehicle <= high else ""
+
+
+CANALS = ([5.73 * 80.0, 0.0, 0.0], np.polymul([5.73, 1.0], [80.0, 1.0]))
+OTOLITHS = (np.multiply(0.4, [10.0, 1.0]), np.polymul([5.0, 1.0], [0.016, 1.0]))
+Organ = tuple[ArrayLike, ArrayLike]
+
+
+def sensed(organ: Organ, u: np.ndarray, dt: float) -> np.ndarray:
+    """Behind an organ in the steady state of the first value, by scipy's simulation."""
+    system = signal.StateSpace(*signal.tf2ss(*organ))
+    steady = -np.linalg.solve(system.A, system.B[:, 0] * u[0])
+    return np.asarray(signal.lsim(system, u, np.arange(len(u)) * dt, X0=steady)[1])
+
+
+def likeness(flight: RunColumns) -> Figures:
+    quantities = ((*_force(flight), OTOLITHS), (*_rate(flight), CANALS))
+    dt = float(np.mean(np.diff(flight.time)))
+    errors: Figures = {}
+    plain: Figures = {}
+    behind: Figures = {}
+    for name, unit, pilot, rider, threshold, organ in quantities:
+        seen = [np.array([sensed(organ, x, dt) for x in side.T]).T for side in (pilot, rider)]
+        errors |= spread(f"perceived_{name}", unit, norm(seen[1] - seen[0]))
+        plain |= _axes(name, pilot, rider, threshold, dt)
+        behind |= _axes(f"perceived_{name}", seen[0], seen[1], threshold, dt)
+    return errors | plain | behind
+
+
+def _force(flight: RunColumns) -> tuple[str, str, np.ndarray, np.ndarray, np.ndarray]:
+    rest = np.array([0.0, 0.0, -G])
+    both = (flight.vehicle_f_B - rest, flight.felt_f - rest)
+    return ("force", "m_s2", *both, np.array(FORCE_THRESHOLD))
+
+
+def _rate(flight: RunColumns) -> tuple[str, str, np.ndarray, np.ndarray, np.ndarray]:
+    return ("rate", "rad_s", flight.vehicle_w_B, flight.felt_w, np.array(RATE_THRESHOLD))
+
+
+def _axes(
+    name: str, pilot: np.ndarray, rider: np.ndarray, threshold: np.ndarray, dt: float
+) -> Figures:
+    figures: Figures = {}
+    for k, axis in enumerate("xyz"):
+        peak, delay = correlation(pilot[:, k], rider[:, k], dt)
+        figures[f"{name}_{axis}_correlation"], figures[f"{name}_{axis}_delay_s"] = peak, delay
+        for kind, share in cue_shares(pilot[:, k], rider[:, k], threshold[k]).items():
+            figures[f"{name}_{axis}_{kind}_share"] = share
+    return figures
+
+
+def duration(flight: RunColumns) -> Figures:
+    return {"ticks": float(len(flight.time)), "duration_s": float(np.ptp(flight.time))}
+
+
+def metrics(flight: RunColumns) -> Figures:
+    parts: tuple[Callable[[RunColumns], Figures], ...] = (
+        *(deviation, cost, extra_rate),
+        *(likeness, turning, effort, duration),
+    )
+    return {name: value for part in parts for name, value in part(flight).items()}
+
+
+def limit_use(flight: RunColumns, wheels: WheelLimits, stage: StageLimits) -> Figures:
+    t = flight.time
+    speed = flight.wheel_speed
+    # the second divided difference of three ticks, from the parabola through them
+    curvature = [
+        2.0 * np.polyfit(t[k : k + 3] - t[k], speed[k : k + 3], 2)[0] for k in range(len(t) - 2)
+    ]
+    used = {
+        "wheel_speed_logged": (speed, wheels.speed),
+        "wheel_acceleration_logged": (flight.wheel_acceleration, wheels.acceleration),
+        "wheel_acceleration_difference": (slope(t, speed), wheels.acceleration),
+        "wheel_jerk_difference": (slope(t, flight.wheel_acceleration), wheels.jerk),
+        "wheel_jerk_second_difference": (np.array(curvature), wheels.jerk),
+        "stage_travel_logged": (flight.motion_p_W, stage.travel),
+        "stage_speed_logged": (flight.motion_v_W, stage.speed),
+        "stage_speed_difference": (slope(t, flight.motion_p_W), stage.speed),
+        "stage_acceleration_logged": (flight.motion_a_W, stage.acceleration),
+        "stage_acceleration_difference": (slope(t, flight.motion_v_W), stage.acceleration),
+        "stage_jerk_difference": (slope(t, flight.motion_a_W), stage.jerk),
+    }
+    return {name: float(np.max(np.abs(v) / np.array(limit))) for name, (v, limit) in used.items()}
+
+
+def slope(t: np.ndarray, x: np.ndarray) -> np.ndarray:
+    return np.array([(x[k + 1] - x[k]) / (t[k + 1] - t[k]) for k in range(len(t) - 1)])
+
+
+def reintegrate(flight: RunColumns, sphere_from_wheels: np.ndarray) -> Rotation:
+    """Orientations from the first one and the wheels alone, by scipy's integrator.
+
+    Between ticks the rate is the cubic through the logged speeds and accelerations at its ends.
+    """
+    rate = CubicHermiteSpline(
+        flight.time,
+        flight.wheel_speed @ sphere_from_wheels.T,
+        flight.wheel_acceleration @ sphere_from_wheels.T,
+    )
+
+    def spin(t: float, q: np.ndarray) -> np.ndarray:
+        w, (s, v) = rate(t), (q[0], q[1:])
+        return 0.5 * np.concatenate([[-w @ v], s * w + np.cross(w, v)])
+
+    solved = solve_ivp(
+        spin,
+        (flight.time[0], flight.time[-1]),
+        flight.motion_q_WS[0],
+        method="DOP853",
+        t_eval=flight.time,
+        rtol=1e-11,
+        atol=1e-12,
+    )
+    return rotations(solved.y.T)
+
+
+def consistency(flight: RunColumns, sphere_from_wheels: np.ndarray) -> Figures:
+    speed = np.linalg.solve(sphere_from_wheels, flight.motion_w_W.T).T
+    acceleration = np.linalg.solve(sphere_from_wheels, flight.motion_alpha_W.T).T
+    drift = reintegrate(flight, sphere_from_wheels) * rotations(flight.motion_q_WS).inv()
+    return {
+        "wheel_speed_mismatch_max_rad_s": float(np.max(np.abs(flight.wheel_speed - speed))),
+        "wheel_acceleration_mismatch_max_rad_s2": float(
+            np.max(np.abs(flight.wheel_acceleration - acceleration))
+        ),
+        "orientation_drift_final_rad": float(drift.magnitude()[-1]),
+        "orientation_drift_max_rad": float(np.max(drift.magnitude())),
+    }
