@@ -6,7 +6,7 @@ Everything put together, run, and taken apart again.
 import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack, closing
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from importlib.metadata import version
 from pathlib import Path
 
@@ -19,12 +19,12 @@ from ..telemetry.operator_buttons import OperatorButtons
 from .clock import MonotonicClock
 from .control.controller import LiveController, OperatorInputs
 from .control.guard import Guard
-from .control.platform_controller import PlatformController, no_vehicle
-from .input.source import Source
+from .control.platform_controller import PlatformController
+from .input.source import Source, no_vehicle
 from .loop import Drives, Loop
 from .open_source import open_source
 from .output.recorder_process import RecorderProcess
-from .realtime import RealtimeScheduling, collections, punctual
+from .realtime import RealtimeScheduling, collections, realtime_scheduling
 
 RATES = (100.0, 1000.0)  # Hz, lowest and highest of the loop
 DEFAULT_RATE = 500.0  # Hz
@@ -133,16 +133,17 @@ class LiveSession:
             writer = LiveWriter(self.ring)
             loop = Loop(self._dt, self._clock, conductor, [writer], drives, self._origin)
             try:
-                with punctual(self._options.priority) as realtime:
+                with realtime_scheduling(self._options.priority) as realtime:
                     before = collections()
                     loop.run()
                     loop.timing.collections = collections() - before
             finally:
-                writer.end(loop.time, conductor.ended.result, conductor.ended.reason)
+                writer.end(loop.time, conductor.outcome.result, conductor.outcome.reason)
                 recorded = recorder.finish()
-        ended = conductor.ended
-        if recorded.result in ("recording_failed", "recorder_died"):
-            ended.because(recorded.result, recorded.reason)
+        ended = conductor.outcome
+        unrecorded = recorded.result in ("recording_failed", "recorder_died")
+        if ended.result == "ok" and unrecorded:
+            ended = replace(ended, result=recorded.result, reason=recorded.reason)
         return LiveResult(
             ended.result,
             ended.reason,

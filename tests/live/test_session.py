@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from atlas_cueing.errors import InputError
-from atlas_cueing.live.control.guard import Command
+from atlas_cueing.live.control.command import Command
 from atlas_cueing.live.output.ring_recorder import RingRecorder
 from atlas_cueing.live.session import LiveOptions, LiveResult, LiveSession
 from atlas_cueing.recording import read_log

@@ -12,7 +12,7 @@ from math import copysign, inf
 
 from ...errors import SetPointError
 from ...rotation import Vec3
-from ..control.guard import Command
+from ..control.command import Command
 from ..input.udp import Address
 from .setpoint import SetPoint, check_key, decode
 

@@ -45,7 +45,7 @@ from struct import Struct
 
 from ...errors import InputError, SetPointError
 from ...signals import LIVE_STATES
-from ..control.guard import Command
+from ..control.command import Command
 
 VERSION = 1
 CRC32, BLAKE2S = 0, 1

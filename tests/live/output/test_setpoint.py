@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from atlas_cueing.errors import InputError, SetPointError
-from atlas_cueing.live.control.guard import Command
+from atlas_cueing.live.control.command import Command
 from atlas_cueing.live.output import setpoint
 from atlas_cueing.live.output.setpoint import SIZE, SetPoint, SetPointSender, decode, encode
 from atlas_cueing.signals import LIVE_STATES
