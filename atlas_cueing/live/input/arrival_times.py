@@ -27,7 +27,7 @@ class ArrivalTimes:
         return self._period
 
     def time(self, arrival: float) -> float:
-        """Return the time (s) of the sample that arrived at `arrival` (s), later than all before."""
+        """Return the time (s), later than all before, of the sample that came at `arrival` (s)."""
         if self._time is None:
             self._time = arrival
             return arrival

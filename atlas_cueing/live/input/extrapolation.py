@@ -41,7 +41,7 @@ class Extrapolation:
     """
 
     def __init__(self, sample: VehicleState, interval: float) -> None:
-        """Start at a sample with constant rates and force; the next one is due `interval` s later."""
+        """Start at a sample, with constant rates and force; the next is due `interval` s later."""
         self._sample, self._interval = sample, interval
         self._slope_w, self._slope_f = ZERO, ZERO
         self._last = sample  # returned
