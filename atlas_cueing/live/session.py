@@ -6,13 +6,13 @@ Everything put together, run, and taken apart again.
 import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack, closing
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass
 from importlib.metadata import version
 from pathlib import Path
 
 from ..errors import InputError
 from ..recording import McapRecorder
-from ..run import Evaluation, build_pipeline, evaluate_log
+from ..run import Evaluation, LiveFigures, RunResult, build_pipeline, evaluate_log
 from ..scenario import Scenario
 from ..telemetry import LiveWriter, Ring, live_ring
 from ..telemetry.operator_buttons import OperatorButtons
@@ -24,7 +24,7 @@ from .input.source import Source
 from .loop import Drives, Loop
 from .open_source import open_source
 from .output.recorder_process import RecorderProcess
-from .realtime import RealtimeScheduling, collections, punctual
+from .realtime import collections, punctual
 
 RATES = (100.0, 1000.0)  # Hz, lowest and highest of the loop
 DEFAULT_RATE = 500.0  # Hz
@@ -50,46 +50,6 @@ class LiveOptions:
     engage: bool = True
     priority: bool = False
     announce: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class LiveResult:
-    """What came of a live run; `result` ok, vehicle_failed, input_lost, fault, stopped or recording_failed."""
-
-    result: str
-    reason: str
-    log: Path
-    ticks: int
-    duration: float
-    faults: int
-    dropped: int
-    lost: int
-    timing: dict[str, float]
-    punctual: RealtimeScheduling
-    evaluation: Evaluation = field(default_factory=Evaluation)
-
-    @property
-    def clean(self) -> bool:
-        """Nothing failed and every limit was kept."""
-        return self.result == "ok" and not self.evaluation.violations
-
-    def to_json(self) -> dict[str, object]:
-        """Everything by name, the unit in the name."""
-        return {
-            "result": self.result,
-            "reason": self.reason,
-            "log": str(self.log),
-            "ticks": self.ticks,
-            "duration_s": self.duration,
-            "faults": self.faults,
-            "dropped_samples": self.dropped,
-            "messages_not_recorded": self.lost,
-            "timing": self.timing,
-            "realtime": asdict(self.punctual),
-            "violations": list(self.evaluation.violations),
-            "metrics": self.evaluation.metrics,
-            "limit_use": self.evaluation.limit_use,
-        }
 
 
 class LiveSession:
@@ -118,7 +78,7 @@ class LiveSession:
         # one moment, by the loop's clock and by the wall's
         self._origin, self.started_ns = self._clock.now(), time.time_ns()
 
-    def run(self, drives: Sequence[Drives] = (), signals: Callable[[], int] = int) -> LiveResult:
+    def run(self, drives: Sequence[Drives] = (), signals: Callable[[], int] = int) -> RunResult:
         """Fly until the run is over, and finish the log.
 
         `signals` tells how often the process has been asked to end.
@@ -143,18 +103,17 @@ class LiveSession:
         ended = conductor.ended
         if recorded.result in ("recording_failed", "recorder_died"):
             ended.because(recorded.result, recorded.reason)
-        return LiveResult(
+        figures = LiveFigures(
+            ended.faults, ended.dropped, recorded.lost, loop.timing.to_json(), asdict(realtime)
+        )
+        return RunResult(
             ended.result,
             ended.reason,
             self._log,
             loop.ticks,
             loop.time,
-            ended.faults,
-            ended.dropped,
-            recorded.lost,
-            loop.timing.to_json(),
-            realtime,
-            self._evaluation(loop.ticks),
+            evaluation=self._evaluation(loop.ticks),
+            live=figures,
         )
 
     def _conductor(self, wishes: OperatorInputs) -> LiveController:
