@@ -8,6 +8,8 @@ Others are searched for with `pytest --hypothesis-profile search`.
 import pytest
 from hypothesis import HealthCheck, settings
 
+pytest_plugins = ["short_scenario"]
+
 settings.register_profile("search", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("steady", settings.get_profile("search"), derandomize=True)
 settings.load_profile("steady")

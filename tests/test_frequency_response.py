@@ -57,7 +57,7 @@ def low_pass(s: complex, omega: float) -> complex:
 def stage(s: complex, of: Scenario) -> complex:
     """Stage acceleration over what the head lacks, along x.
 
-    The filter of `cueing/onset.py`, in continuous time.
+    The filter of `cueing/stage/high_pass.py`, in continuous time.
     """
     p = of.file.cueing.stage_parameters()
     corner = 2.0 * pi * p.bandwidth

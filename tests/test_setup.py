@@ -82,7 +82,7 @@ def test_the_second_time_nothing_is_done(project: Project) -> None:
 
 def test_tool_settings_change_nothing_and_dependencies_do(project: Project) -> None:
     project.setup()
-    project.replace("line-length = 128", "line-length = 99")
+    project.replace("line-length = 100", "line-length = 99")
     assert project.setup() == (0, "", [])
     project.replace('"numpy>=2.0"', '"numpy>=2.1"')
     assert project.setup()[2] == ["."]

@@ -19,7 +19,7 @@ ATTEMPTS = 2  # times that a run may lose its worker before it is left
 _PATIENCE = 0.2  # s from one look at whether to stop to the next
 _GRACE = 10.0  # s for a worker to kill its run and end, once its stdin is closed
 # -P: nothing in the working directory is imported
-_COMMAND = (sys.executable, "-P", "-m", f"{__package__}.worker")
+_COMMAND = (sys.executable, "-P", "-m", f"{__package__}.worker_main")
 # a process that forks must not have threads
 _SINGLE = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 

@@ -110,11 +110,10 @@ def live_command(
     failed; the log is complete. 2: bad input, nothing was written.
     """
     from ..live.session import LiveOptions, LiveSession
-    from ..live.stop_signals import ending
-    from ..run import check_output
+    from ..run import StopRequest, check_output
     from ..scenario import load_scenario
     from .live_extras import drives, followers
-    from .summary import end, live_summary
+    from .summary import end, run_summary
     from .text import one_json
 
     if wait and not view:
@@ -128,13 +127,13 @@ def live_command(
         rate, until, attended=view, engage=not wait, priority=priority, announce=not as_json
     )
     session = LiveSession(loaded, log, options)
-    with ending() as signals:
+    with StopRequest(interrupt=False) as stop:
         with (
             followers(session, loaded, port if view else None, foxglove),
             drives(setpoints, key) as sender,
         ):
-            result = session.run(sender, signals.asked)
-        typer.echo(one_json(result.to_json()) if as_json else live_summary(result))
+            result = session.run(sender, lambda: stop.count)
+        typer.echo(one_json(result.to_json()) if as_json else run_summary(result))
     end(result)
 
 

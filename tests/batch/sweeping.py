@@ -29,7 +29,8 @@ LIMITS = RunLimits(time=600.0)
 _SABOTEUR = """
 import os, signal, sys, time
 from pathlib import Path
-from atlas_cueing.batch import alone, worker
+from atlas_cueing.batch import execute as alone
+from atlas_cueing.batch import worker_main as worker
 fly = worker.fly_alone
 def sabotaged(order, workdir):
     if "-attitude-" in order.id:

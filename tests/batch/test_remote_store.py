@@ -266,7 +266,7 @@ def test_a_worker_never_has_a_driver_of_its_own(
         f"os.register_at_fork(before=lambda: 'fsspec' in sys.modules and open('{tmp_path}/seen',"
         " 'w'))"
     )
-    code = f"import os, sys; from atlas_cueing.batch import worker; {seen}; worker.main()"
+    code = f"import os, sys; from atlas_cueing.batch import worker_main as worker; {seen}; worker.main()"
     monkeypatch.setattr(workers, "_COMMAND", (sys.executable, "-c", code))
     outcomes = fly_batch(
         planned(tmp_path),

@@ -2,12 +2,11 @@ import string
 from pathlib import Path
 
 import pytest
+from short_scenario import Load
 
 from atlas_cueing.batch import run_id as module
 from atlas_cueing.batch.run_id import digest, run_id
 from atlas_cueing.scenario import load_scenario
-
-from .conftest import Load
 
 
 def test_it_reads_well_and_is_a_file_name(load: Load) -> None:

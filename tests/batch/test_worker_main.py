@@ -113,7 +113,9 @@ def test_what_a_library_prints_in_the_worker_is_no_record(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     noisy = "os.register_at_fork(before=lambda: os.write(1, b'noise'))"
-    code = f"import os; from atlas_cueing.batch import worker; {noisy}; worker.main()"
+    code = (
+        f"import os; from atlas_cueing.batch import worker_main as worker; {noisy}; worker.main()"
+    )
     monkeypatch.setattr(workers, "_COMMAND", (sys.executable, "-c", code))
     assert [record.result for record in told(orders(tmp_path, RunLimits()))] == ["ok", "ok"]
 

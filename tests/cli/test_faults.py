@@ -114,7 +114,7 @@ def test_killed(tmp_path: Path, command: Command) -> None:
     """Every chunk that was full by then can be had back."""
     (tmp_path / "s.toml").write_text(LONG)
     killing = (
-        "import os, sys; from atlas_cueing.batch import run as r; from atlas_cueing.cli import"
+        "import os, sys; from atlas_cueing.run import fly as r; from atlas_cueing.cli import"
         " main; keep = r._Keeper.keep\ndef k(self, states):\n keep(self, states)\n if"
         " self._flown.ticks > 600: os.kill(os.getpid(), 9)\nr._Keeper.keep = k\nsys.exit(main())"
     )

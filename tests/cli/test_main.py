@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from waiting import until
 
-from atlas_cueing import batch, rotation
+from atlas_cueing import rotation, run
 from atlas_cueing.cli import main
 from atlas_cueing.errors import InputError, LogError
 
@@ -84,7 +84,7 @@ def test_errors_of_ours(
     def fail(*_: object, **__: object) -> None:
         raise error
 
-    monkeypatch.setattr(batch, "check_output", fail)
+    monkeypatch.setattr(run, "check_output", fail)
     ended = command("run", "s.toml")
     assert (ended.status, ended.out, ended.err) == (status, "", "error: wrong\n")
 
@@ -93,7 +93,7 @@ def test_errors_that_nobody_expected(command: Command, monkeypatch: pytest.Monke
     def fail(*_: object, **__: object) -> None:
         raise ZeroDivisionError("oops")
 
-    monkeypatch.setattr(batch, "check_output", fail)
+    monkeypatch.setattr(run, "check_output", fail)
     ended = command("run", "s.toml")
     assert (ended.status, ended.out) == (1, "")
     assert ended.err.count("\n") == 1

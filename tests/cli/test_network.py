@@ -15,7 +15,7 @@ ALONE = ["unshare", "--user", "--map-root-user", "--net"]
 FLY = """
 import sys
 from pathlib import Path
-from atlas_cueing.batch import run
+from atlas_cueing.run import fly as run
 from atlas_cueing.cli import main
 fly, seen = run.fly, []
 def flying(*arguments):

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from batch.conftest import Load
+from short_scenario import Load
 
 from atlas_cueing.errors import InputError, OutputError, SlipConditionError, VehicleError
 from atlas_cueing.evaluation.cost import combined

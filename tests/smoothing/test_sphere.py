@@ -160,7 +160,7 @@ def test_the_orientation_is_the_integral_of_the_wheels(platform: Platform) -> No
 
 @pytest.mark.parametrize("dt", DTS)
 def test_wheel_limits_hold_between_ticks(dt: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sphere, "Axis", Recorder)
+    monkeypatch.setattr(sphere, "AxisSmoothing", Recorder)
     smoothing, platform = ORTHOGONAL.smoothing(dt), ORTHOGONAL
     paths = []
     for asked in wild(dt, 1500, np.random.default_rng(12)):

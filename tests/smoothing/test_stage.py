@@ -39,7 +39,7 @@ cues = st.tuples(anything, anything, anything)
 @pytest.fixture
 def recorded(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let every RailAxis keep its path between ticks."""
-    monkeypatch.setattr(stage, "Axis", Recorder)
+    monkeypatch.setattr(stage, "AxisSmoothing", Recorder)
 
 
 def fly(dt: float, limit: tuple[float, ...], asked: Iterable[tuple[float, ...]]) -> float:
@@ -87,7 +87,7 @@ def test_limits_hold_for_any_cues(
     dt: float, limit: tuple[float, ...], asked: list[tuple[float, float, float]]
 ) -> None:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(stage, "Axis", Recorder)
+        patch.setattr(stage, "AxisSmoothing", Recorder)
         fly(dt, limit, asked)
 
 

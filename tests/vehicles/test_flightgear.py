@@ -41,7 +41,7 @@ class Sender:
         port = self.socket.getsockname()[1]
         command = [
             sys.executable,
-            str(Path(__file__).with_name("jsbsim_sender.py")),
+            str(Path(__file__).parent / "jsbsim" / "jsbsim_sender.py"),
             script,
             str(port),
         ]

@@ -1,3 +1,5 @@
+"""A flight of one second, for tests of what flies scenarios."""
+
 from collections.abc import Callable
 from pathlib import Path
 

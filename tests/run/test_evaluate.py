@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from short_scenario import Load
 
 from atlas_cueing.evaluation import BLOCK_TICKS, RunColumns, consistency, limit_use, metrics
 from atlas_cueing.recording import Log, McapRecorder, read_log
@@ -14,8 +15,6 @@ from atlas_cueing.run import Evaluator, evaluate_log
 from atlas_cueing.run.fly import run_scenario
 from atlas_cueing.scenario import Scenario, load_platform
 from atlas_cueing.signals import LIVE_TOPICS, TOPICS
-
-from .conftest import Load
 
 LONG = 2 * BLOCK_TICKS + 1234  # ticks
 
