@@ -18,7 +18,8 @@ from pathlib import Path
 from atlas_cueing import rotation
 from atlas_cueing.cueing import CAUSAL_METHODS
 from atlas_cueing.errors import PlanningError
-from atlas_cueing.live.control.guard import Command, Guard
+from atlas_cueing.live.control.command import Command
+from atlas_cueing.live.control.guard import Guard
 from atlas_cueing.run import run_scenario
 from atlas_cueing.scenario import load_platform, load_scenario
 from atlas_cueing.signals import Cue

@@ -5,7 +5,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from ..errors import InputError, OutputError
-from ..run.fly import RunResult, run_scenario
+from ..run import RunResult, run_scenario
 from ..scenario import load_scenario
 from .job import Job
 from .job_result import JobResult
@@ -75,7 +75,9 @@ def _record(order: Job, result: RunResult) -> JobResult:
         found.metrics,
         found.limit_use,
     )
-    return JobResult(order.id, result.result, result.reason, result.log.name, *figures)
+    return JobResult(
+        order.id, result.result, result.reason, result.log.name if result.log else "", *figures
+    )
 
 
 def left_by(order: Job, workdir: Path) -> str:

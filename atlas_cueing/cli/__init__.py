@@ -1,6 +1,6 @@
 """The command `atlas-cueing`.
 
-Exit status: 0 done and clean; 1 the run or the platform has a finding, and whatever was recorded is
+Exit status: 0 done and clean; 1 the run or the platform has a finding, and what was recorded is
 kept; 2 bad input or usage, and nothing was written. Results go to stdout, everything else to
 stderr.
 """
@@ -73,13 +73,13 @@ def _show_version(asked: bool) -> None:
 
 
 def _build() -> str:
-    """Tell whether this is compiled, and why it is not."""
+    """Describe whether this is compiled, and why it is not."""
     from .. import rotation
 
     if not rotation.__file__.endswith(".py"):
         return "compiled"
-    told = Path(rotation.__file__).with_name("not_compiled.txt")  # by tools/build_backend.py
-    reason = told.read_text("utf-8").strip() if told.exists() else "it runs from its source tree"
+    note = Path(rotation.__file__).with_name("not_compiled.txt")  # by tools/build_backend.py
+    reason = note.read_text("utf-8").strip() if note.exists() else "it runs from its source tree"
     return f"plain Python ({reason})"
 
 
@@ -102,7 +102,7 @@ def _options(
         ),
     ] = False,
 ) -> None:
-    """Options before the command."""
+    """Take the options before the command."""
     if debug:
         logging.basicConfig(
             level=logging.DEBUG, stream=sys.stderr, format="%(levelname)s %(name)s: %(message)s"
@@ -110,8 +110,8 @@ def _options(
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command with `arguments` (the process's own by default); gives the exit status."""
-    _spare()
+    """Run the command with `arguments` (by default the process's own); return the exit status."""
+    _speed_up_start()
     with safe_streams():
         return _status(list(sys.argv[1:] if arguments is None else arguments))
 
@@ -137,8 +137,8 @@ def _status(texts: list[str]) -> int:
     return 0
 
 
-def _spare() -> None:
-    """What a start need not cost."""
+def _speed_up_start() -> None:
+    """Save time at the start: no threads of OpenBLAS, fewer garbage collections."""
     # matrices of three columns gain nothing from a thread for each core
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     # a collection amid the imports takes 35 ms and finds nothing

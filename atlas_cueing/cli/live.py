@@ -21,8 +21,9 @@ Examples:
 
   atlas-cueing live scenarios/live/flightgear.toml --setpoints 127.0.0.1:5600 --foxglove 8765
 
-Ctrl-C or SIGTERM parks the platform and finishes the log; a second one stops it at once. This program is not a safety device:
-emergency stop and the monitoring of speed and position belong to hardware.
+Ctrl-C or SIGTERM parks the platform and finishes the log; a second one stops it at once. This
+program is not a safety device: emergency stop and the monitoring of speed and position belong to
+hardware.
 """
 
 
@@ -78,7 +79,7 @@ Priority: TypeAlias = Annotated[
     bool,
     typer.Option(
         "--priority",
-        help="Ask for real-time priority, locked memory and a core; tell what is refused.",
+        help="Ask for real-time priority, locked memory and a core; report what is refused.",
     ),
 ]
 
@@ -109,37 +110,43 @@ def live_command(
     Exit status 0: flown and parked, every limit kept. 1: a fault, or the vehicle or its input
     failed; the log is complete. 2: bad input, nothing was written.
     """
-    from ..live.session import LiveOptions, LiveSession
-    from ..live.stop_signals import ending
-    from ..run import check_output
+    from ..live import LiveOptions, LiveSession
+    from ..run import StopRequest, check_output
     from ..scenario import load_scenario
     from .live_extras import drives, followers
-    from .summary import end, live_summary
+    from .summary import end, run_summary
     from .text import one_json
 
     if wait and not view:
         raise InputError("--wait needs --view, where 'engage' can be pressed")
     loaded = load_scenario(scenario, settings or (), trust_models=trust_models)
-    read = [scenario, *loaded.inputs(), *([key] if key else [])]
-    asked = output or Path(f"{loaded.name}.mcap")
-    log = check_output(asked, inputs=read, force=force, fresh=True)
-    until = _duration(duration, loaded)
+    inputs = [scenario, *loaded.inputs(), *([key] if key else [])]
+    log = output or Path(f"{loaded.name}.mcap")
+    log = check_output(log, inputs=inputs, force=force, fresh=True)
     options = LiveOptions(
-        rate, until, attended=view, engage=not wait, priority=priority, announce=not as_json
+        rate,
+        _duration(duration, loaded),
+        attended=view,
+        engage=not wait,
+        priority=priority,
+        announce=not as_json,
     )
     session = LiveSession(loaded, log, options)
-    with ending() as signals:
+    with StopRequest(interrupt=False) as stop:
         with (
             followers(session, loaded, port if view else None, foxglove),
             drives(setpoints, key) as sender,
         ):
-            result = session.run(sender, signals.asked)
-        typer.echo(one_json(result.to_json()) if as_json else live_summary(result))
+            result = session.run(sender, lambda: stop.count)
+        typer.echo(one_json(result.to_json()) if as_json else run_summary(result))
     end(result)
 
 
 def _duration(asked: float | None, loaded: "Scenario") -> float:
-    """As asked, or by the scenario where nothing else tells the end of the flight: a vehicle that owns its time ends itself."""
+    """Return the duration of the run, s: by the option, or else by the scenario.
+
+    The scenario's holds only for a source without an end of its own.
+    """
     if asked is not None:
         return asked
     endless = loaded.file.vehicle.source == "flightgear"

@@ -1,4 +1,4 @@
-"""What a live run is shown on and sent to, as the options ask."""
+"""The views and the receiver of set points of a live run, by the command's options."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager
@@ -10,8 +10,7 @@ from ..errors import InputError
 from .text import say
 
 if TYPE_CHECKING:
-    from ..live.loop import Drives
-    from ..live.session import LiveSession
+    from ..live import Drives, LiveSession
     from ..scenario import Scenario
 
 _HIGHEST_PORT = 65535
@@ -23,13 +22,17 @@ _LARGEST_KEY = 4096  # bytes of its file; keys have 32 at most
 def followers(
     session: "LiveSession", scenario: "Scenario", view_port: int | None, foxglove_port: int | None
 ) -> Iterator[None]:
-    """Processes that follow the ring; a port of None is not served.
+    """Run the processes that follow the ring; each reports its address on stderr.
 
-    Each tells on stderr where it is.
+    Args:
+        session: that has not been run yet.
+        scenario: of the session.
+        view_port: of the 3D view; None for no view.
+        foxglove_port: of the server for Foxglove; None for no server.
     """
     with ExitStack() as stack:
         if view_port is not None:
-            from ..live.control.state_machine import allowed_buttons
+            from ..live.control import allowed_buttons
             from ..viewer import ViewerProcess
 
             press, allowed = session.buttons.press, allowed_buttons()
@@ -39,7 +42,7 @@ def followers(
             stack.enter_context(viewer)
             say(f"view: {viewer.url}")
         if foxglove_port is not None:
-            from ..live.output.foxglove_server import FoxgloveProcess
+            from ..live.output import FoxgloveProcess
 
             server = FoxgloveProcess(
                 session.ring, foxglove_port, scenario.platform.head_S, session.started_ns
@@ -51,16 +54,16 @@ def followers(
 
 @contextmanager
 def drives(setpoints: str | None, key_file: Path | None) -> Iterator[Sequence["Drives"]]:
-    """A sender of set points to HOST:PORT, or none.
+    """Open the sender of set points to HOST:PORT, or none when `setpoints` is None.
 
-    Raises InputError for an address or key that will not do.
+    Raises InputError for an address or a key that cannot be used.
     """
     if setpoints is None:
         if key_file is not None:
             raise InputError("--key is for --setpoints HOST:PORT, which is missing")
         yield ()
         return
-    from ..live.output.setpoint import SetPointSender
+    from ..live.output import SetPointSender
 
     host, port = _address(setpoints)
     with closing(SetPointSender(host, port, key=_key(key_file) if key_file else b"")) as sender:

@@ -10,9 +10,8 @@ from ..wheels import headroom
 from .text import aligned, say
 
 if TYPE_CHECKING:  # what is shown has been loaded by whoever made it
-    from ..live.session import LiveResult
     from ..rotation import Mat3, Vec3
-    from ..run import RunResult
+    from ..run import LiveFigures, RunResult
     from ..scenario import Platform
 
 _PERCENTILES = (
@@ -24,12 +23,16 @@ _PERCENTILES = (
 
 
 def run_summary(result: "RunResult") -> str:
-    """The text printed about a run: result, errors, and use of the limits."""
-    return "\n".join([*aligned(_head(result), ""), *_evaluation(result)])
+    """Return what people are shown of a run; `--json` has every figure.
+
+    Result, punctuality of a live run, what was felt, and the use of the limits.
+    """
+    timing = _timing_rows(result.live) if result.live else []
+    return "\n".join([*aligned(_head(result), ""), *aligned(timing, ""), *_evaluation(result)])
 
 
-def end(result: "RunResult | LiveResult") -> None:
-    """Print the findings of a run on stderr. Raises Exit(1) if there are any."""
+def end(result: "RunResult") -> None:
+    """Say on stderr what was found. Raises Exit(1) if anything was."""
     if not result.clean:
         for finding in ([f"{result.result}: {result.reason}"] if result.reason else []) + list(
             result.evaluation.violations
@@ -38,25 +41,8 @@ def end(result: "RunResult | LiveResult") -> None:
         raise typer.Exit(1)
 
 
-def live_summary(result: "LiveResult") -> str:
-    """The text printed about a live run: that of `run_summary`, and how punctual the loop was."""
-    head = [
-        ("result", f"{result.result}  {result.reason}".rstrip()),
-        ("log", str(result.log)),
-        (
-            "flown",
-            (
-                f"{result.duration:.2f} s, {result.ticks} ticks, {result.faults} faults,"
-                f" {result.dropped} samples dropped"
-            ),
-        ),
-        ("violations", str(len(result.evaluation.violations))),
-    ]
-    return "\n".join([*aligned(head, ""), *aligned(_timing_rows(result), ""), *_evaluation(result)])
-
-
-def _evaluation(result: "RunResult | LiveResult") -> list[str]:
-    """Lines about errors, motion, and the use of the limits."""
+def _evaluation(result: "RunResult") -> list[str]:
+    """What was felt, what moved, and the use of the limits."""
     metrics, use = result.evaluation.metrics, result.evaluation.limit_use
     return [
         *_error_table(metrics),
@@ -65,8 +51,8 @@ def _evaluation(result: "RunResult | LiveResult") -> list[str]:
     ]
 
 
-def _timing_rows(result: "LiveResult") -> list[tuple[str, str]]:
-    timing, realtime = result.timing, result.punctual
+def _timing_rows(live: "LiveFigures") -> list[tuple[str, str]]:
+    timing, realtime = live.timing, live.realtime
     rows = [
         (
             title,
@@ -79,23 +65,28 @@ def _timing_rows(result: "LiveResult") -> list[tuple[str, str]]:
         f"{timing['missed_deadlines']:.0f}, at most {timing['most_missed_in_a_row']:.0f} in a row"
     )
     rows.append(("missed deadlines", missed))
-    if realtime.granted or realtime.refused:
-        refused = f"; refused: {'; '.join(realtime.refused)}" if realtime.refused else ""
-        rows.append(("real time", f"{', '.join(realtime.granted) or 'nothing granted'}{refused}"))
+    granted, refused = realtime["granted"], realtime["refused"]
+    if granted or refused:
+        denied = f"; refused: {'; '.join(refused)}" if refused else ""
+        rows.append(("real time", f"{', '.join(granted) or 'nothing granted'}{denied}"))
     return rows
 
 
 def _head(result: "RunResult") -> list[tuple[str, str]]:
-    speed = result.duration / result.wall if result.wall > 0.0 else 0.0
     return [
         ("result", f"{result.result}  {result.reason}".rstrip()),
         ("log", str(result.log)),
-        (
-            "flight",
-            f"{result.duration:.2f} s, {result.ticks} ticks, flown at {speed:.1f} times real time",
-        ),
+        _flown_row(result),
         ("violations", str(len(result.evaluation.violations))),
     ]
+
+
+def _flown_row(result: "RunResult") -> tuple[str, str]:
+    flown, live = f"{result.duration:.2f} s, {result.ticks} ticks", result.live
+    if live:
+        return "flown", f"{flown}, {live.faults} faults, {live.dropped} samples dropped"
+    speed = result.duration / result.wall if result.wall > 0.0 else 0.0
+    return "flight", f"{flown}, flown at {speed:.1f} times real time"
 
 
 def _error_table(metrics: Mapping[str, float]) -> list[str]:

@@ -1,8 +1,22 @@
 """The real-time loop: the same pipeline against the clock, from a simulator to the drives.
 
-    source -> supervisor, ride (states, courses, pipeline) -> guard -> set points, ring -> recorder,
-    viewer, Foxglove
+    input    sources: the state of the vehicle at the time of a tick
+    control  state machine, trajectories and guard: one command a tick; knows no sockets
+    output   set points to the drives; recorder and Foxglove behind the ring
 
-Nothing behind the ring can hold the loop up; nothing before the guard can move the platform beyond
-its limits.
+Data goes one way, input -> control -> output. Nothing behind the ring can hold the loop up; nothing
+before the guard can move the platform beyond its limits. `LiveSession` puts it all together.
 """
+
+from .loop import Drives, Loop, Output
+from .open_source import open_source
+from .session import LiveOptions, LiveSession
+
+__all__ = [
+    "Drives",
+    "LiveOptions",
+    "LiveSession",
+    "Loop",
+    "Output",
+    "open_source",
+]

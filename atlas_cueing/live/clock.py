@@ -1,4 +1,4 @@
-"""Time, as the loop is told it."""
+"""The clock of the loop."""
 
 import ctypes
 import ctypes.util
@@ -9,13 +9,13 @@ _TIMER_ABSTIME = 1  # time.h
 
 
 class Clock(Protocol):
-    """Monotonic time, and waiting for it."""
+    """Monotonic time that can be waited for."""
 
     def now(self) -> float:
-        """Time in s from some start; never goes back."""
+        """Return the time in s from some start; it never goes back."""
 
     def sleep_until(self, time: float) -> None:
-        """Return at `time` or as soon after it as may be; at once when it has passed."""
+        """Return at `time` (s) or as soon after it as possible; at once when it has passed."""
 
 
 class _Timespec(ctypes.Structure):
@@ -23,7 +23,10 @@ class _Timespec(ctypes.Structure):
 
 
 class MonotonicClock:
-    """CLOCK_MONOTONIC, waited for in absolute time, so that a delay before the call is not added to the wait."""
+    """CLOCK_MONOTONIC, waited for in absolute time.
+
+    So a delay before the call is not added to the wait.
+    """
 
     def __init__(self) -> None:
         library = ctypes.CDLL(ctypes.util.find_library("c"), use_errno=True)
@@ -32,11 +35,11 @@ class MonotonicClock:
         self._pointer = ctypes.byref(self._until)
 
     def now(self) -> float:
-        """Seconds since the machine started, as time.monotonic."""
+        """Return the seconds since the machine started, as time.monotonic."""
         return time.monotonic()
 
     def sleep_until(self, time_: float) -> None:
-        """Sleep in the kernel; signals are handled and do not end the wait."""
+        """Sleep in the kernel until `time_` (s); signals are handled and do not end the wait."""
         seconds = int(time_)
         self._until.seconds, self._until.nanoseconds = seconds, int((time_ - seconds) * 1e9)
         while self.now() < time_:

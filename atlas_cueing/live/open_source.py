@@ -1,17 +1,14 @@
-"""The source that a scenario asks for."""
+"""Opens the source that a scenario names."""
 
 from ..scenario import RecordedFlight, Scenario
 from ..vehicles import FlightgearFlight, JsbsimVehicle, SignalFlight, SignalVehicle
-from .input.flightgear_source import FlightgearSource
-from .input.source import Source
-from .input.udp import UdpReceiver
-from .input.vehicle_source import VehicleSource
+from .input import FlightgearSource, Source, UdpReceiver, VehicleSource
 
 
 def open_source(scenario: Scenario) -> Source:
-    """A new source, ready to be read; close it after use.
+    """Open a new source, ready to be read; close it after use.
 
-    Raises InputError for what cannot fly (a model, log or port that is not to be had), LogError for
+    Raises InputError for what cannot fly (a model, log or port that is not available), LogError for
     a damaged log, and VehicleError for a model that fails in its first state.
     """
     flight = scenario.live_flight

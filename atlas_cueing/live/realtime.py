@@ -1,4 +1,7 @@
-"""What keeps the loop punctual: no garbage collection, and, where the system permits it, priority, locked memory and a core."""
+"""Real-time scheduling of this process.
+
+No garbage collection, and, where the system permits it, priority, locked memory and a core.
+"""
 
 import ctypes
 import gc
@@ -7,29 +10,28 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 
-# of 1 to 99; below the kernel's own threads for interrupts on most systems (50) it would wait for
-# them
+# of 1 to 99; below the kernel's threads for interrupts (50 on most systems) it would wait for them
 FIFO_PRIORITY = 80
 _MCL_CURRENT, _MCL_FUTURE = 1, 2  # sys/mman.h
 
 
 @dataclass(slots=True)
 class RealtimeScheduling:
-    """What was granted, and what was refused and why."""
+    """What the system granted, and what it refused and why."""
 
     granted: list[str] = field(default_factory=list)
     refused: list[str] = field(default_factory=list)
 
 
 @contextmanager
-def punctual(priority: bool) -> Iterator[RealtimeScheduling]:
-    """Everything collected, frozen and collection off while inside.
+def realtime_scheduling(priority: bool) -> Iterator[RealtimeScheduling]:
+    """Collect garbage, freeze what is left, and switch collection off while inside.
 
-    With `priority` the rest is asked for as well.
+    With `priority` the system is asked for priority, locked memory and a core as well; what it
+    refuses is noted and does no harm.
 
     Priority, memory, affinity and collection are as before afterwards; only SCHED_RESET_ON_FORK
-    stays where the system does not let it go (sched(7)). What the system refuses is told and does
-    no harm.
+    stays where the system does not allow to take it back (sched(7)).
     """
     found = RealtimeScheduling()
     scheduler, affinity = os.sched_getscheduler(0), os.sched_getaffinity(0)
@@ -40,17 +42,17 @@ def punctual(priority: bool) -> Iterator[RealtimeScheduling]:
     gc.disable()
     try:
         if priority:
-            _ask(found, "SCHED_FIFO", _fifo)
+            _ask(found, "SCHED_FIFO", _take_priority)
             _ask(found, "mlockall", _lock_memory)
             _ask(found, "affinity", _take_core)
         yield found
     finally:
         if "SCHED_FIFO" in found.granted:
-            _give_back(scheduler, parameters)
+            _restore_scheduler(scheduler, parameters)
         if "mlockall" in found.granted:
             ctypes.CDLL(None).munlockall()
         if "affinity" in found.granted:
-            with suppress(OSError):  # as may be when all its cores have gone meanwhile
+            with suppress(OSError):  # all its cores may have gone meanwhile
                 os.sched_setaffinity(0, affinity)
         gc.unfreeze()
         if collecting:
@@ -58,24 +60,24 @@ def punctual(priority: bool) -> Iterator[RealtimeScheduling]:
 
 
 def collections() -> int:
-    """Garbage collections of this process up to now."""
+    """Return the number of garbage collections of this process up to now."""
     return sum(generation["collections"] for generation in gc.get_stats())
 
 
-def _ask(found: RealtimeScheduling, name: str, what: Callable[[], None]) -> None:
+def _ask(found: RealtimeScheduling, name: str, request: Callable[[], None]) -> None:
     try:
-        what()
+        request()
     except OSError as error:
         found.refused.append(f"{name}: {error.strerror or error}")
     else:
         found.granted.append(name)
 
 
-def _fifo() -> None:
+def _take_priority() -> None:
     os.sched_setscheduler(0, os.SCHED_FIFO | os.SCHED_RESET_ON_FORK, os.sched_param(FIFO_PRIORITY))
 
 
-def _give_back(scheduler: int, parameters: os.sched_param) -> None:
+def _restore_scheduler(scheduler: int, parameters: os.sched_param) -> None:
     try:
         os.sched_setscheduler(0, scheduler, parameters)
     except OSError:
@@ -90,7 +92,7 @@ def _lock_memory() -> None:
 
 
 def _take_core() -> None:
-    """The last core: interrupts and newcomers tend to the first ones."""
+    """Take the last core: interrupts and new processes tend to the first ones."""
     cores = os.sched_getaffinity(0)
     if len(cores) < 2:
         raise OSError(0, "there is only one core")

@@ -1,47 +1,44 @@
-"""A live run from a scenario to a finished log.
-
-Everything put together, run, and taken apart again.
-"""
+"""A live run from a scenario to a finished log: everything put together, run, and taken apart."""
 
 import time
 from collections.abc import Callable, Sequence
-from contextlib import ExitStack, closing
-from dataclasses import asdict, dataclass, field
+from contextlib import closing
+from dataclasses import asdict, dataclass
 from importlib.metadata import version
 from pathlib import Path
 
 from ..errors import InputError
 from ..recording import McapRecorder
-from ..run import Evaluation, build_pipeline, evaluate_log
+from ..run import Evaluation, LiveFigures, RunResult, build_pipeline, evaluate_log
 from ..scenario import Scenario
-from ..telemetry import LiveWriter, Ring, live_ring
-from ..telemetry.operator_buttons import OperatorButtons
+from ..telemetry import LiveWriter, OperatorButtons, Ring, live_ring
 from .clock import MonotonicClock
-from .control.controller import LiveController, OperatorInputs
-from .control.guard import Guard
-from .control.platform_controller import PlatformController, no_vehicle
-from .input.source import Source
+from .control import Guard, LiveController, OperatorInputs, PlatformController, RunOutcome
+from .input import Source, no_vehicle
 from .loop import Drives, Loop
 from .open_source import open_source
-from .output.recorder_process import RecorderProcess
-from .realtime import RealtimeScheduling, collections, punctual
+from .output import Recorded, RecorderProcess
+from .realtime import RealtimeScheduling, collections, realtime_scheduling
 
 RATES = (100.0, 1000.0)  # Hz, lowest and highest of the loop
 DEFAULT_RATE = 500.0  # Hz
 RING_SECONDS = 10.0  # that the recorder may be held up without a loss
 # ticks; the figures of a longer run are left to review (20 minutes at 500 Hz, some 400 MB)
 MOST_EVALUATED = 600_000
-_WARM_UP = 200  # ticks flown for nothing: first calls are slow
+_WARM_UP = 200  # ticks of a pipeline that nothing follows: first calls are slow
+_UNRECORDED = ("recording_failed", "recorder_died")
 
 
 @dataclass(frozen=True, slots=True)
 class LiveOptions:
-    """How to run: loop rate in Hz, duration in s until parking.
+    """How to run.
 
-    `attended` runs wait for their operator's buttons.
-
-    priority: ask the system for SCHED_FIFO, locked memory and a core of its own. announce: tell
-        changes of state on stderr.
+    rate: of the loop, Hz.
+    duration: until the platform parks, s.
+    attended: the operator's buttons can be pressed, and the run waits for them.
+    engage: engage at the start.
+    priority: ask the system for SCHED_FIFO, locked memory and a core of its own.
+    announce: report changes of state on stderr.
     """
 
     rate: float = DEFAULT_RATE
@@ -52,55 +49,18 @@ class LiveOptions:
     announce: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class LiveResult:
-    """What came of a live run; `result` ok, vehicle_failed, input_lost, fault, stopped or recording_failed."""
-
-    result: str
-    reason: str
-    log: Path
-    ticks: int
-    duration: float
-    faults: int
-    dropped: int
-    lost: int
-    timing: dict[str, float]
-    punctual: RealtimeScheduling
-    evaluation: Evaluation = field(default_factory=Evaluation)
-
-    @property
-    def clean(self) -> bool:
-        """Nothing failed and every limit was kept."""
-        return self.result == "ok" and not self.evaluation.violations
-
-    def to_json(self) -> dict[str, object]:
-        """Everything by name, the unit in the name."""
-        return {
-            "result": self.result,
-            "reason": self.reason,
-            "log": str(self.log),
-            "ticks": self.ticks,
-            "duration_s": self.duration,
-            "faults": self.faults,
-            "dropped_samples": self.dropped,
-            "messages_not_recorded": self.lost,
-            "timing": self.timing,
-            "realtime": asdict(self.punctual),
-            "violations": list(self.evaluation.violations),
-            "metrics": self.evaluation.metrics,
-            "limit_use": self.evaluation.limit_use,
-        }
-
-
 class LiveSession:
     """One live run.
 
-    Followers of `ring`, and whoever presses `buttons`, have to be forked between `__init__` and
-    `run`.
+    Processes that follow `ring` or press `buttons` have to be forked between `__init__` and `run`.
+
+    ring: every tick and change of state of the run.
+    buttons: the operator's.
+    started_ns: start of the run, ns since 1970.
     """
 
     def __init__(self, scenario: Scenario, log: str | Path, options: LiveOptions) -> None:
-        """Load everything.
+        """Load everything that `run` needs.
 
         Raises InputError (nothing was written) when the scenario cannot fly live or at that rate.
         """
@@ -108,75 +68,89 @@ class LiveSession:
             raise InputError(
                 f"--rate {options.rate:g} Hz, allowed: {RATES[0]:g} <= rate <= {RATES[1]:g}"
             )
-        self._scenario, self._log, self._options = scenario, Path(log), options
+        self._scenario = scenario
+        self._log = Path(log)
+        self._options = options
         self._dt = 1.0 / options.rate
         self._pipeline = build_pipeline(scenario, self._dt)
         self._source: Source = open_source(scenario)
         self.ring: Ring = live_ring(RING_SECONDS, options.rate)
         self.buttons = OperatorButtons()
         self._clock = MonotonicClock()
-        # one moment, by the loop's clock and by the wall's
+        # the same moment by the loop's clock and by the system's
         self._origin, self.started_ns = self._clock.now(), time.time_ns()
 
-    def run(self, drives: Sequence[Drives] = (), signals: Callable[[], int] = int) -> LiveResult:
+    def run(
+        self, drives: Sequence[Drives] = (), stop_requests: Callable[[], int] = int
+    ) -> RunResult:
         """Fly until the run is over, and finish the log.
 
-        `signals` tells how often the process has been asked to end.
+        Args:
+            drives: take every command.
+            stop_requests: returns how often the process has been asked to end.
         """
-        with ExitStack() as stack:
-            stack.enter_context(closing(self._source))
+        with closing(self._source):
             recorder = RecorderProcess(self.ring, self._recorder(), announce=self._options.announce)
-            asked = OperatorInputs(
-                self.buttons.edges, signals, self._options.duration, self._options.attended
-            )
-            conductor = self._conductor(asked)
+            controller = self._controller(stop_requests)
             writer = LiveWriter(self.ring)
-            loop = Loop(self._dt, self._clock, conductor, [writer], drives, self._origin)
+            loop = Loop(self._dt, self._clock, controller, [writer], drives, self._origin)
             try:
-                with punctual(self._options.priority) as realtime:
-                    before = collections()
-                    loop.run()
-                    loop.timing.collections = collections() - before
+                realtime = self._run_loop(loop)
             finally:
-                writer.end(loop.time, conductor.ended.result, conductor.ended.reason)
+                outcome = controller.outcome
+                writer.end(loop.time, outcome.result, outcome.reason)
                 recorded = recorder.finish()
-        ended = conductor.ended
-        if recorded.result in ("recording_failed", "recorder_died"):
-            ended.because(recorded.result, recorded.reason)
-        return LiveResult(
-            ended.result,
-            ended.reason,
-            self._log,
-            loop.ticks,
-            loop.time,
-            ended.faults,
-            ended.dropped,
-            recorded.lost,
-            loop.timing.to_json(),
-            realtime,
-            self._evaluation(loop.ticks),
-        )
+        return self._result(outcome, recorded, loop, realtime)
 
-    def _conductor(self, wishes: OperatorInputs) -> LiveController:
-        platform = self._scenario.platform
+    def _controller(self, stop_requests: Callable[[], int]) -> LiveController:
+        options, platform = self._options, self._scenario.platform
         limits = platform.stage_limit_values()
         self._warm_up()
-        ride = PlatformController(
+        platform_controller = PlatformController(
             lambda: build_pipeline(self._scenario, self._dt),
             platform.geometry().sphere_from_wheels,
             limits.travel,
             self._dt,
         )
         guard = Guard(self._dt, platform.wheel_limit_values(), limits)
-        conductor = LiveController(ride, guard, self._source, wishes)
-        if self._options.engage:
-            conductor.engage()
-        return conductor
+        operator = OperatorInputs(
+            self.buttons.edges, stop_requests, options.duration, options.attended
+        )
+        controller = LiveController(platform_controller, guard, self._source, operator)
+        if options.engage:
+            controller.engage()
+        return controller
 
     def _warm_up(self) -> None:
-        """Fly a pipeline of its own through the first state, so that no first call falls into a tick."""
+        """Run a pipeline that nothing follows, so that no first call falls into a tick."""
         for k in range(_WARM_UP):
             self._pipeline.step(no_vehicle(k * self._dt))
+
+    def _run_loop(self, loop: Loop) -> RealtimeScheduling:
+        """Run the loop; return what the system granted it."""
+        with realtime_scheduling(self._options.priority) as realtime:
+            before = collections()
+            loop.run()
+            loop.timing.collections = collections() - before
+        return realtime
+
+    def _result(
+        self, outcome: RunOutcome, recorded: Recorded, loop: Loop, realtime: RealtimeScheduling
+    ) -> RunResult:
+        unrecorded = outcome.result == "ok" and recorded.result in _UNRECORDED
+        ended = recorded if unrecorded else outcome
+        figures = LiveFigures(
+            outcome.faults, outcome.dropped, recorded.lost, loop.timing.to_json(), asdict(realtime)
+        )
+        return RunResult(
+            ended.result,
+            ended.reason,
+            self._log,
+            loop.ticks,
+            loop.time,
+            evaluation=self._evaluation(loop.ticks),
+            live=figures,
+        )
 
     def _recorder(self) -> McapRecorder:
         scenario = self._scenario

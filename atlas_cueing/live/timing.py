@@ -1,15 +1,15 @@
-"""How punctual the loop was, in memory that does not grow."""
+"""The punctuality of the loop, in memory that does not grow."""
 
 from array import array
 from collections.abc import Sequence
 
-# of a microsecond each; whatever is longer counts as 0.1 s, and the maximum is kept apart
+# of a microsecond each; what is longer counts as 0.1 s, and the maximum is kept apart
 _BINS = 100_000
 _SHARES = {"p50": 0.5, "p99": 0.99, "p999": 0.999}
 
 
 class Histogram:
-    """Durations, by the microsecond."""
+    """A histogram of durations, with bins of a microsecond."""
 
     def __init__(self) -> None:
         self._counts = array("Q", bytes(8 * (_BINS + 1)))
@@ -23,7 +23,10 @@ class Histogram:
             self.maximum = duration
 
     def percentile(self, share: float) -> float:
-        """The duration (s) that `share` of all do not exceed, to a microsecond; 0 for none."""
+        """Return the duration (s) that `share` of all do not exceed, to a microsecond.
+
+        It is 0 when there are none.
+        """
         wanted, seen = share * self.count, 0
         for microseconds, count in enumerate(self._counts):
             seen += count
@@ -32,19 +35,29 @@ class Histogram:
         return 0.0
 
     def counts(self) -> Sequence[int]:
-        """How many of each microsecond from 0 on."""
+        """Return the number of durations in each bin, from 0 microseconds on."""
         return self._counts
 
 
 class LoopTiming:
-    """All figures of a run."""
+    """All figures of the timing of a run.
+
+    lateness: from a tick's deadline to its beginning.
+    cost: from a tick's beginning until its set point has been sent.
+    missed: deadlines that were left out.
+    longest_row: most deadlines missed one after the other.
+    collections: garbage collections while the loop ran.
+    """
 
     def __init__(self) -> None:
-        self.lateness, self.cost = Histogram(), Histogram()
-        self.missed = self.longest_row = self.collections = 0
+        self.lateness = Histogram()
+        self.cost = Histogram()
+        self.missed = 0
+        self.longest_row = 0
+        self.collections = 0
 
     def to_json(self) -> dict[str, float]:
-        """By name, with units; the object `timing` of the command's --json."""
+        """Return the figures by name, the unit in the name: `timing` of the command's --json."""
         figures: dict[str, float] = {"ticks": self.lateness.count, "missed_deadlines": self.missed}
         figures["most_missed_in_a_row"] = self.longest_row
         figures["garbage_collections"] = self.collections

@@ -1,4 +1,4 @@
-"""The MCAP log: written tick by tick, read back as columns."""
+"""The MCAP log of a run: written tick by tick, read back as columns, recovered when broken."""
 
 from .log import Log, TopicColumns
 from .reader import read_log

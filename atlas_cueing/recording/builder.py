@@ -1,4 +1,4 @@
-"""A log in the making: descriptions, files and messages, in the order of an MCAP file."""
+"""Builds a log in memory from descriptions, files and messages, in the order of an MCAP file."""
 
 from collections.abc import Callable, Mapping, Sequence
 from io import BytesIO
@@ -23,16 +23,20 @@ from .schemas import STATUS, TF
 from .wire import Times
 
 T = TypeVar("T")
-OURS = (*FIELDS, STATUS)  # topics that only a log of ours has
+OURS = (*FIELDS, STATUS)  # topics that only a log of this program has
 
 
 class LogBuilder:
-    """What has been found in a log so far; whatever wrote it, columns are those of its topics."""
+    """The content of a log up to the present record, by any writer; columns are by topic.
+
+    library: that wrote the log, by its header.
+    data_checked: whether a checksum of the whole data section was right.
+    """
 
     def __init__(self, path: Path, max_bytes: int) -> None:
-        """Nothing of the log at `path` yet; `max_bytes` bounds what is kept."""
+        """Start with nothing of the log at `path`; `max_bytes` bounds what is kept."""
         self.library = ""
-        self.data_checked = False  # by a checksum of the whole data section
+        self.data_checked = False
         self._path, self._left = path, max_bytes
         self._schemas: dict[int, Schema] = {}
         self._channels: dict[int, Channel] = {}
@@ -83,10 +87,14 @@ class LogBuilder:
     ) -> None:
         """Read the records of a chunk, or of a stretch of messages outside of chunks.
 
-        index: offsets of the messages by channel, as the log has them; may be empty or wrong.
-        checked: whether a checksum of their own was right.
-        all_or_none: whether nothing is kept where a message cannot be read; else what came before
-        it may be. Raises LogError where a message cannot be read.
+        Args:
+            data: the records.
+            index: offsets of the messages by channel, as the log has them; may be empty or wrong.
+            checked: whether a checksum of their own was right.
+            all_or_none: whether nothing is kept where a message cannot be read; otherwise what came
+                before it may be.
+
+        Raises LogError where a message cannot be read.
         """
         found = {
             channel: starts
@@ -112,9 +120,9 @@ class LogBuilder:
                 )
 
     def log(self) -> Log:
-        """All of it.
+        """Return the whole log.
 
-        Raises LogError when nothing of it is ours, or none of the messages that are can be read.
+        Raises LogError when nothing of it is of this program, or none of its messages can be read.
         """
         notes = [*self._unread(), *_left_out(self._by_topic(self._tables))]
         if self._unchecked and not self.data_checked:
@@ -138,14 +146,14 @@ class LogBuilder:
         return any(topic in FIELDS for topic in read)
 
     def _describe(self, opcode: int, body: bytes) -> None:
-        """Take in a record of a chunk that is no message."""
+        """Keep the description in a record of a chunk that is no message."""
         if opcode == Opcode.SCHEMA:
             self.add_schema(Schema.read(ReadDataStream(BytesIO(body))))
         elif opcode == Opcode.CHANNEL:
             self.add_channel(Channel.read(ReadDataStream(BytesIO(body))))
 
     def _decoded(self, channel: int, data: bytes, starts: NDArray[np.int64]) -> Callable[[], None]:
-        """Decode messages of one channel; what is given keeps them."""
+        """Decode messages of one channel; return a function that keeps them."""
         decoder = self._decoders.get(channel)
         match decoder:
             case None:
@@ -166,7 +174,10 @@ class LogBuilder:
         when += times.tolist()
 
     def _table(self, channels: Sequence[Growing]) -> TopicColumns:
-        """One topic's; our own recorder writes ticks in order, and if they are not, review has to see it."""
+        """Return the columns of one topic.
+
+        The recorder of this program writes ticks in order; if they are not, review has to see it.
+        """
         plain = len(channels) == 1 and self.library == LIBRARY
         return channels[0].table() if plain else merged(channels)
 
@@ -177,9 +188,9 @@ class LogBuilder:
         return by_topic
 
     def _unread(self) -> list[str]:
-        """A line for each channel with messages that are not read.
+        """Return a line for each channel with messages that are not read.
 
-        Raises LogError when a topic of ours has no others.
+        Raises LogError when a topic of this program has no others.
         """
         read = {self._channels[channel].topic for channel in (*self._tables, *self._states)}
         lines = []
@@ -197,7 +208,7 @@ def _description(channel: Channel) -> tuple[str, str, int]:
 
 
 def _left_out(by_topic: Mapping[str, Sequence[Growing]]) -> list[str]:
-    """A line for each topic with fields that only some of its channels have."""
+    """Return a line for each topic with fields that only some of its channels have."""
     lines = []
     for topic, channels in by_topic.items():
         common = common_fields(channels)

@@ -1,4 +1,4 @@
-"""From a block of ticks to the bytes and the index of one MCAP chunk, without a loop over messages."""
+"""Encodes a block of ticks as one MCAP chunk with its index, without a loop over messages."""
 
 import itertools
 from collections.abc import Iterator, Mapping, Sequence
@@ -16,7 +16,7 @@ from .schemas import TF
 from .transforms import RATE_HZ, put_transforms, transform_template
 from .wire import Records, Times, flat_dtype, flat_template, put, record_content, repeat
 
-# of each topic in a row; /felt comes last
+# column of each topic in a row; /felt comes last
 _STARTS = np.cumsum([0] + [len(topic.fields) for topic in TOPICS])
 ELAPSED = ROW + TIMING.fields.index("elapsed_s")  # its place in a live row
 _VEHICLE_F = slice(8, 11)
@@ -28,7 +28,13 @@ _Q, _W, _ALPHA, _P, _A = (
 
 
 class Extra(NamedTuple):
-    """A message that does not come every tick: it stands after the first `ticks` ticks of its chunk."""
+    """A message that does not come every tick.
+
+    ticks: number of ticks of its chunk that it stands after.
+    channel: id of its channel.
+    log_time: ns.
+    record: the whole message record.
+    """
 
     ticks: int
     channel: int
@@ -38,13 +44,17 @@ class Extra(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class EncodedChunk:
-    """Message records of a chunk, and log time and offset (n, 2) of each message by channel."""
+    """A chunk before its compression.
+
+    data: message records.
+    index: log time (ns) and offset in `data` (n, 2) of each message, by channel.
+    """
 
     data: bytes
     index: dict[int, NDArray[np.uint64]]
 
     def messages(self) -> Iterator[tuple[int, int, bytes]]:
-        """Channel, log time (ns) and content of each message, channel by channel."""
+        """Yield channel, log time (ns) and content of each message, channel by channel."""
         for channel, entries in self.index.items():
             for log_time, offset in entries.tolist():
                 start, end = record_content(self.data, offset)
@@ -52,12 +62,15 @@ class EncodedChunk:
 
 
 class ChunkEncoder:
-    """Encodes blocks of ticks; `channels` names the topics to write and their ids, the others are left out.
-
-    `topics` are TOPICS, or LIVE_TOPICS for a live log.
-    """
+    """Encodes blocks of ticks as chunks."""
 
     def __init__(self, channels: Mapping[str, int], topics: Sequence[Topic] = TOPICS) -> None:
+        """Lay out the messages of a tick.
+
+        Args:
+            channels: ids by the names of the topics to write; the others are left out.
+            topics: in the order of a row: TOPICS, or LIVE_TOPICS for a live log.
+        """
         self._tf_channel = channels.get(TF)
         self._tf_template = transform_template(channels.get(TF, 0))
         self._tf_slot = -1.0
@@ -79,13 +92,16 @@ class ChunkEncoder:
             self._template[name] = flat_template(channels[name], size)
             self._offsets[name] = offset
             offset += flat_dtype(size).itemsize
-        # used again for every chunk, and no memory asked for anew
+        # used again for every chunk, without new memory
         self._records = repeat(self._template, 0)
 
     def encode(self, ticks: Array, times: Times, statuses: Sequence[Extra]) -> EncodedChunk:
-        """Chunk of ticks (n, fields of all topics) in order of time, with log times (n,) in ns.
+        """Encode ticks in order of time.
 
-        /tf is made from them.
+        Args:
+            ticks: (n, fields of all topics); /tf is made from them.
+            times: log times (n,), ns.
+            statuses: changes of state among them.
         """
         records = self._encode_ticks(ticks, times)
         extras = self._transforms(ticks, times)
@@ -94,7 +110,7 @@ class ChunkEncoder:
         return EncodedChunk(_merge(records, extras), self._index(records, times, extras))
 
     def _encode_ticks(self, ticks: Array, times: Times) -> Records:
-        """One structured record a tick with all its messages, until the next call."""
+        """Return a structured record a tick with all its messages, valid until the next call."""
         if len(self._records) < len(ticks):
             self._records = repeat(self._template, len(ticks))
         records = self._records[: len(ticks)]
@@ -104,7 +120,7 @@ class ChunkEncoder:
         return records
 
     def _transforms(self, ticks: Array, times: Times) -> list[Extra]:
-        """A /tf message after each tick that is the first one in its sixtieth of a second."""
+        """Make a /tf message after each tick that is the first one in its sixtieth of a second."""
         if self._tf_channel is None or not len(ticks):
             return []
         # a tick due at k/60 s may be a rounding error early
@@ -128,7 +144,10 @@ class ChunkEncoder:
     def _index(
         self, ticks: Records, times: Times, extras: list[Extra]
     ) -> dict[int, NDArray[np.uint64]]:
-        """Where each message starts: a tick is pushed back by the extra messages before it, and the other way round."""
+        """Return log time and offset of each message, by channel.
+
+        A tick is moved back by the extra messages before it, and they by the ticks before them.
+        """
         places, channels, log_times, records = (
             zip(*extras, strict=True) if extras else ((), (), (), ())
         )
@@ -151,12 +170,12 @@ class ChunkEncoder:
 
 
 def with_felt(rows: Array, head_S: Vec3) -> Array:
-    """All numbers of ticks (n, fields of TOPICS or LIVE_TOPICS) from rows (n, ROW or LIVE_ROW): /felt comes last."""
+    """Append the fields of /felt to rows (n, ROW or LIVE_ROW); head_S in m, frame S."""
     return np.hstack([rows, felt_columns(rows, head_S)])
 
 
 def felt_columns(rows: Array, head_S: Vec3) -> Array:
-    """The fields of /felt (n, 8) from rows (n, ROW): time, force, rate, direction error."""
+    """Return the fields of /felt (n, 8) of rows (n, ROW): time, force, rate, direction error."""
     with np.errstate(all="ignore"):  # a number that overflowed upstream is recorded as it is
         f, w = felt(rows[:, _Q], rows[:, _W], rows[:, _ALPHA], rows[:, _A], head_S)
         error = direction_error(rows[:, _VEHICLE_F], f)
@@ -164,7 +183,7 @@ def felt_columns(rows: Array, head_S: Vec3) -> Array:
 
 
 def _merge(ticks: Records, extras: list[Extra]) -> bytes:
-    """The ticks' bytes with each extra record at its place."""
+    """Return the bytes of the ticks with each extra record at its place."""
     data, start = ticks.view(np.uint8).data, 0
     pieces: list[bytes | memoryview] = []
     for place, _, _, record in extras:

@@ -1,4 +1,4 @@
-"""What a chunk holds, unpacked within bounds: a file of 33 kB can unpack to a GiB.
+"""Unpacks chunks within bounds: a file of 33 kB can unpack to a GiB.
 
 MCAP names two compressions, zstd and lz4, and none
 (https://mcap.dev/spec/registry#well-known-compression-formats).
@@ -43,7 +43,10 @@ def unpack(chunk: Chunk) -> bytes:
 
 
 def check_crc(what: str, expected: int, found: int) -> None:
-    """Compare checksums; 0 is the format's word for "not available". Raises LogError."""
+    """Compare the checksums of `what`; an expected 0 means "not available".
+
+    Raises LogError when they differ.
+    """
     if expected not in (0, found):
         raise LogError(
             f"the checksum of the {what} is wrong ({found:#010x} instead of {expected:#010x})"
@@ -51,10 +54,9 @@ def check_crc(what: str, expected: int, found: int) -> None:
 
 
 def _zstd(data: bytes, size: int) -> bytes:
-    """At most one byte more than `size`."""
+    """Unpack at most one byte more than `size`."""
     if zstandard.frame_content_size(data) == size:  # as in our own logs
-        # the decompressor believes the size in the frame, so it is asked for it only when it is
-        # right
+        # the decompressor trusts the size in the frame: only for frames where it is right
         return zstandard.ZstdDecompressor().decompress(data)
     decompressor = zstandard.ZstdDecompressor(max_window_size=_WINDOW)
     with decompressor.stream_reader(data, read_across_frames=True) as reader:
@@ -62,7 +64,7 @@ def _zstd(data: bytes, size: int) -> bytes:
 
 
 def _lz4(data: bytes, size: int) -> bytes:
-    """At most one byte more than `size`; nothing when the frame is cut."""
+    """Unpack at most one byte more than `size`; return nothing when the frame is cut."""
     decompressor = lz4.frame.LZ4FrameDecompressor()
     unpacked: bytes = decompressor.decompress(data, max_length=size + 1)
     return unpacked if decompressor.eof else b""

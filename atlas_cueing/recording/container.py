@@ -1,7 +1,7 @@
-"""The MCAP container: header, schemas, channels, attachments, chunks with their indexes, and the summary.
+"""Writes the MCAP container: header, schemas, channels, attachments, indexed chunks, summary.
 
-Record layouts are mcap's own (https://mcap.dev/spec); the order of the records is ours: schemas, channels and attachments
-first, so that whatever survives of a broken log can be read.
+Record layouts are mcap's own (https://mcap.dev/spec). Schemas, channels and attachments come first,
+so that what is left of a broken log can be read.
 """
 
 import struct
@@ -38,9 +38,10 @@ ZSTD_LEVEL = -8
 
 
 class Container:
-    """Writes an MCAP file from its first byte to its last through `write`, which keeps all bytes it is given or raises."""
+    """Writes an MCAP file from its first byte to its last."""
 
     def __init__(self, write: Callable[[bytes], object]) -> None:
+        """Write magic and header; `write` keeps all bytes it is given or raises."""
         self._write = write
         self._position = 0
         self._crc = 0
@@ -56,7 +57,10 @@ class Container:
         self._record(Header(profile="", library=LIBRARY))
 
     def add_channel(self, topic: str, name: str, schema: bytes) -> int:
-        """Id of a new channel of protobuf messages `name`, described by a FileDescriptorSet."""
+        """Add a channel of protobuf messages `name`; return its id.
+
+        `schema` is a serialised FileDescriptorSet.
+        """
         number = len(self._channels) + 1
         self._schemas.append(Schema(id=number, data=schema, encoding="protobuf", name=name))
         self._channels.append(
@@ -69,7 +73,7 @@ class Container:
         return number
 
     def add_attachment(self, name: str, media_type: str, data: bytes) -> None:
-        """Keep a file inside the log."""
+        """Write a file into the log."""
         record = Attachment(
             create_time=EPOCH_NS, log_time=EPOCH_NS, name=name, media_type=media_type, data=data
         )
@@ -79,7 +83,7 @@ class Container:
         )
 
     def add_metadata(self, name: str, pairs: Mapping[str, str]) -> None:
-        """Keep a map from string to string."""
+        """Write a map from string to string into the log."""
         offset, length = self._record(Metadata(name=name, metadata=dict(pairs)))
         self._metadata.append(MetadataIndex(offset, length, name))
 
@@ -132,7 +136,7 @@ class Container:
         self._put(MAGIC)
 
     def _summary(self) -> Iterable[tuple[Opcode, list[bytes]]]:
-        """Groups of the summary, in order."""
+        """Yield the groups of the summary, in order."""
         yield Opcode.SCHEMA, [_serialise(schema) for schema in self._schemas]
         yield Opcode.CHANNEL, [_serialise(channel) for channel in self._channels]
         yield Opcode.STATISTICS, [_serialise(self._statistics())]
@@ -161,7 +165,7 @@ class Container:
         return SummaryOffset(opcode, start, self._position - start)
 
     def _record(self, record: McapRecord) -> tuple[int, int]:
-        """Write one record; its offset and length."""
+        """Write one record; return its offset and length."""
         data = _serialise(record)
         offset = self._position
         self._put(data)
@@ -180,7 +184,7 @@ def _serialise(record: McapRecord) -> bytes:
 
 
 def _message_index(channel: int, entries: bytes) -> bytes:
-    """As mcap.records.MessageIndex, for entries (log time, offset) that are bytes already."""
+    """Serialise a MessageIndex with entries (log time, offset) that are bytes already."""
     return (
         struct.pack("<BQHI", Opcode.MESSAGE_INDEX, 6 + len(entries), channel, len(entries))
         + entries

@@ -1,8 +1,8 @@
-"""From message records to numbers and states, in our fixed layout or any that protobuf allows.
+"""Decodes message records as numbers and states, in the fixed layout or any that protobuf allows.
 
-Our own messages are read thousands at a time (`wire`, `transforms`). Other writers leave zeros out,
-use other field numbers or narrower types, or add fields: their messages are decoded one by one with
-the schema that the log brings, and fields are found by name.
+Messages of this program are read thousands at a time (`wire`, `transforms`). Other writers leave
+zeros out, use other field numbers or narrower types, or add fields: their messages are decoded one
+by one with the schema that the log brings, and fields are found by name.
 """
 
 from collections.abc import Callable
@@ -30,10 +30,13 @@ _HEAD = np.dtype(HEAD)
 
 
 class NumberDecoder:
-    """Reads messages of numbers; `fields` are in the order of our own schemas, then in the schema's."""
+    """Decodes messages of numbers.
+
+    fields: their names, in the order of this program's schemas, then in the schema's own.
+    """
 
     def __init__(self, topic: str, schema: Schema, fields: tuple[str, ...]) -> None:
-        """A decoder for the messages of `topic`, whose numbers are called `fields` in its schema."""
+        """Prepare to decode messages of `topic`, whose numbers are `fields` in its schema."""
         known = [name for name in FIELDS.get(topic, ()) if name in fields]
         self.fields = (*known, *(name for name in fields if name not in known))
         self._flat = flat_fields(schema.name, schema.data) == self.fields
@@ -41,9 +44,9 @@ class NumberDecoder:
         self._row = attrgetter(*self.fields)
 
     def decode(self, data: bytes, starts: Starts) -> tuple[Array, Times]:
-        """Values (n, fields) and log times (n,), ns, of the message records of `data` at `starts`.
+        """Return values (n, fields) and log times (n,), ns, of the records of `data` at `starts`.
 
-        Raises LogError where a message is none of its schema.
+        Raises LogError where a message is not of its schema.
         """
         records = _records(data, starts, flat_dtype(len(self.fields))) if self._flat else None
         if records is not None:
@@ -57,16 +60,16 @@ class NumberDecoder:
 
 
 class PoseDecoder:
-    """Reads what /tf tells of stage and cabin; messages of other frames are passed over."""
+    """Decodes the poses of stage and cabin in /tf; messages of other frames are passed over."""
 
     fields = POSE
 
     def __init__(self, schema: Schema) -> None:
-        """A decoder for messages of foxglove.FrameTransforms."""
+        """Prepare to decode messages of foxglove.FrameTransforms."""
         self._message = _Messages(TF, schema)
 
     def decode(self, data: bytes, starts: Starts) -> tuple[Array, Times]:
-        """Poses (n, 7) and log times (n,), ns.
+        """Return poses (n, 7) and log times (n,), ns, of the records of `data` at `starts`.
 
         Raises LogError as `NumberDecoder`, and for other poses.
         """
@@ -83,15 +86,15 @@ class PoseDecoder:
 
 
 class StateDecoder:
-    """Reads changes of state."""
+    """Decodes changes of state."""
 
     def __init__(self, schema: Schema) -> None:
-        """A decoder for messages of a time, a state and a reason."""
+        """Prepare to decode messages of a time, a state and a reason."""
         self._message = _Messages(STATUS, schema)
         self._message.prepare()  # a description that makes no sense is found before any message
 
     def decode(self, data: bytes, starts: Starts) -> tuple[list[StateChange], Times]:
-        """States and log times (n,), ns.
+        """Return states and log times (n,), ns, of the records of `data` at `starts`.
 
         Raises LogError as `NumberDecoder`, and for other types.
         """
@@ -103,14 +106,12 @@ Decoder: TypeAlias = NumberDecoder | PoseDecoder | StateDecoder
 
 
 def decoder_of(topic: str, encoding: str, schema: Schema | None) -> Decoder | str:
-    """What reads the messages of a channel, or why they are not read, in a word or two."""
+    """Return a decoder for the messages of a channel, or in short why they are not read."""
     if schema is None or encoding != "protobuf" or schema.encoding != "protobuf":
-        told = (
-            encoding
-            if schema is None or schema.encoding in ("", encoding)
-            else f"{encoding}, {schema.encoding}"
-        )
-        return f"encoding {told!r}, allowed: 'protobuf'"
+        both = encoding
+        if schema is not None and schema.encoding not in ("", encoding):
+            both = f"{encoding}, {schema.encoding}"
+        return f"encoding {both!r}, allowed: 'protobuf'"
     if topic == TF:
         return (
             PoseDecoder(schema)
@@ -129,7 +130,7 @@ def decoder_of(topic: str, encoding: str, schema: Schema | None) -> Decoder | st
 
 
 def log_times_of(data: bytes, starts: Starts) -> Times:
-    """Log times (n,), ns, of the message records at `starts`."""
+    """Return the log times (n,), ns, of the message records at `starts`."""
     return windows(data, _HEAD)[starts].view(_HEAD)["log_time"].copy()
 
 
@@ -142,7 +143,7 @@ class _Messages:
         self._known: frozenset[int] = frozenset()
 
     def all(self, data: bytes, starts: Starts) -> list[Any]:
-        """Every message at `starts`, decoded. Raises LogError."""
+        """Decode every message at `starts`. Raises LogError."""
         return [
             self._decoded(data[slice(*record_content(data, start))]) for start in starts.tolist()
         ]
@@ -169,10 +170,11 @@ class _Messages:
 
 
 def _status(message: Any) -> StateChange:
-    """The log brings its own description of the message, which may call anything a time."""
+    """Check the types: the log's own description of the message may call anything a time."""
     names = message.DESCRIPTOR.fields_by_name
-    told = attrgetter("time_s", "state", "reason")(message) if set(names) >= _STATE else (None,) * 3
-    time, state, reason = told
+    if not set(names) >= _STATE:
+        raise LogError(f"a message of {STATUS} is not a time, a state and a reason")
+    time, state, reason = attrgetter("time_s", "state", "reason")(message)
     if not (isinstance(time, float | int) and isinstance(state, str) and isinstance(reason, str)):
         raise LogError(f"a message of {STATUS} is not a time, a state and a reason")
     return StateChange(float(time), state, reason)
@@ -182,7 +184,7 @@ _STATE = {"time_s", "state", "reason"}
 
 
 def _records(data: bytes, starts: Starts, dtype: np.dtype[np.void]) -> Records | None:
-    """The records of one layout at `starts`; None when the last one does not fit into the data."""
+    """Return the records of one layout at `starts`; None when the last one does not fit in."""
     if starts[-1] + dtype.itemsize > len(data):
         return None
     return windows(data, dtype)[starts].view(dtype)

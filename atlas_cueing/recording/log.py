@@ -17,7 +17,12 @@ _COMPONENTS = ("wxyz", "xyz", "123")  # of a quaternion, a vector, the wheels
 
 @dataclass(frozen=True, slots=True)
 class TopicColumns:
-    """All messages of a topic: `values` (n, fields) and `log_times` (n,) in ns, in the order of the log."""
+    """All messages of a topic, in the order of the log.
+
+    fields: names of the columns, the unit in the name.
+    values: (n, fields).
+    log_times: (n,), ns.
+    """
 
     fields: tuple[str, ...]
     values: Array
@@ -28,9 +33,12 @@ class TopicColumns:
 class Log:
     """A complete log of one run.
 
-    `tables` has one Table a topic of doubles, `metadata` is the record `atlas.run`, `attachments`
-    are files by name, `transforms` what /tf tells: position of the stage and orientation of the
-    cabin, `notes` what in the file was not read or not checked, a line each.
+    tables: columns of each topic of doubles.
+    metadata: the record `atlas.run`.
+    attachments: files by name.
+    statuses: changes of state, in order.
+    transforms: columns of /tf: position of the stage and orientation of the cabin.
+    notes: what in the file was not read or not checked, a line each.
     """
 
     path: Path
@@ -43,7 +51,7 @@ class Log:
 
     @classmethod
     def of_ticks(cls, ticks: Array) -> "Log":
-        """A log of ticks (n, fields of TOPICS) that are in memory, as an observer of `McapRecorder` is given them."""
+        """Make a log of ticks (n, fields of TOPICS) in memory, as `McapRecorder` observers get."""
         tables, start = {}, 0
         for topic in TOPICS:
             end = start + len(topic.fields)
@@ -51,7 +59,7 @@ class Log:
         return cls(Path(), tables, {}, {}, ())
 
     def column(self, topic: str, field: str) -> Array:
-        """One field over the whole run, (n,), in the unit of its name.
+        """Return one field over the whole run, (n,), in the unit of its name.
 
         Raises LogError if the log does not have it.
         """
@@ -63,12 +71,12 @@ class Log:
         return table.values[:, table.fields.index(field)]
 
     def vector(self, topic: str, name: str) -> Array:
-        """A vector or quaternion over the whole run.
+        """Return a vector or quaternion over the whole run.
 
-        The fields that `name` and an axis, component or wheel number begin.
+        It has the fields that begin with `name` and an axis, component or wheel number: `q_ws`
+        gives (n, 4); `w` gives (n, 3), in the frame and unit of the topic.
 
-        `q_ws` gives (n, 4); `w` gives (n, 3), in the frame and unit of the topic. Raises LogError
-        if the log does not have it.
+        Raises LogError if the log does not have it.
         """
         table = self._table(topic)
         pattern = re.compile(re.escape(name) + r"(?:_([wxyz])|([xyz123])_\w+)")
@@ -84,7 +92,7 @@ class Log:
             )
         columns = [found[component] for component in components]
         start, end = columns[0], columns[-1] + 1
-        # as a part of the table where they lie side by side, as in all logs of ours
+        # as a part of the table where they lie side by side, as in all logs of this program
         return table.values[:, slice(start, end) if columns == list(range(start, end)) else columns]
 
     def _table(self, topic: str) -> TopicColumns:
@@ -102,19 +110,19 @@ class Growing:
     """
 
     def __init__(self, fields: tuple[str, ...]) -> None:
-        """A table of no messages yet."""
-        self.fields, self._values, self._times = fields, bytearray(), bytearray()
+        """Start without messages."""
+        self.fields = fields
+        self._values = bytearray()
+        self._times = bytearray()
 
     def add(self, values: Array, times: Times) -> None:
-        """Values (n, fields) and log times (n,) that follow."""
+        """Append values (n, fields) and log times (n,), ns."""
         self._values += np.ascontiguousarray(values).data.cast("B")
         self._times += np.ascontiguousarray(times).data.cast("B")
 
     def table(self) -> TopicColumns:
-        """What was added, to be read only."""
-        values, times = (
-            np.frombuffer(self._values).reshape(-1, len(self.fields)),
-            np.frombuffer(self._times, np.uint64),
-        )
+        """Return what was added, read-only."""
+        values = np.frombuffer(self._values).reshape(-1, len(self.fields))
+        times = np.frombuffer(self._times, np.uint64)
         values.flags.writeable = times.flags.writeable = False
         return TopicColumns(self.fields, values, times)

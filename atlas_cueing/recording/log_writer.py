@@ -1,4 +1,4 @@
-"""A log in memory, written as this program lays logs out, wherever it came from."""
+"""Writes a log in memory, by any writer, in the layout of this program."""
 
 import re
 from collections.abc import Callable, Mapping
@@ -20,17 +20,19 @@ CHUNK_TICKS = 512
 
 @dataclass(frozen=True, slots=True)
 class _Stream:
-    """The messages of a channel: log times (n,), ns, and the bytes of the records of a range of them."""
+    """The messages of a channel.
+
+    channel: its id.
+    times: log times (n,), ns.
+    encode: returns the records of a range of them.
+    """
 
     channel: int
     times: Times
     encode: Callable[[slice], list[bytes]]
 
     def cuts(self, starts: Times) -> list[int]:
-        """Where the chunks that begin at log times `starts` cut the messages.
-
-        All of them lie in one.
-        """
+        """Return where the chunks that begin at log times `starts` cut the messages."""
         inner = np.searchsorted(np.maximum.accumulate(self.times), starts[1:])
         return [0, *inner.tolist(), len(self.times)]
 
@@ -38,8 +40,9 @@ class _Stream:
 def write_log(container: Container, log: Log, metadata: Mapping[str, str]) -> None:
     """Write columns, states, poses and files of `log` into the empty `container`, and finish it.
 
-    Log times and the order of the messages of a topic are kept. Raises what the container's `write`
-    raises.
+    Log times and the order of the messages of a topic are kept.
+
+    Raises what the container's `write` raises.
     """
     streams = [_numbers(container, topic, table) for topic, table in log.tables.items()]
     streams += [_poses(container, log.transforms)] if log.transforms is not None else []
@@ -60,7 +63,7 @@ def write_log(container: Container, log: Log, metadata: Mapping[str, str]) -> No
 
 
 def _chunk(parts: list[tuple[_Stream, slice]]) -> EncodedChunk:
-    """One chunk of a range of each stream, a channel after the other."""
+    """Encode a range of each stream as one chunk, a channel after the other."""
     pieces, index, position = [], {}, 0
     for stream, rows in parts:
         records = stream.encode(rows)
@@ -120,7 +123,7 @@ def _states(container: Container, log: Log) -> _Stream:
 
 
 def _state_times(log: Log) -> Times:
-    """Log times of the states: of the last tick up to each, as they are recorded."""
+    """Return the log times of the states: each has that of the last tick up to it."""
     seconds = np.array([status.time for status in log.statuses])
     ticks = next(
         (t for t in log.tables.values() if t.fields[:1] == ("time_s",) and len(t.values)), None

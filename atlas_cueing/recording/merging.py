@@ -1,4 +1,4 @@
-"""The one table of a topic that lies on several channels, or in an order that is not that of time."""
+"""Merges the messages of a topic that is on several channels, or not in the order of time."""
 
 from collections.abc import Sequence
 
@@ -14,7 +14,7 @@ States = tuple[list[StateChange], list[int]]  # changes of state, and their log 
 
 
 def merged(channels: Sequence[Growing]) -> TopicColumns:
-    """The table of one topic from all its channels, in order of log time.
+    """Return the columns of one topic from all its channels, in order of log time.
 
     Fields that not all channels have are left out.
     """
@@ -32,7 +32,7 @@ def merged(channels: Sequence[Growing]) -> TopicColumns:
 
 
 def merged_states(channels: Sequence[States]) -> tuple[StateChange, ...]:
-    """The changes of state of all channels, in order of log time."""
+    """Return the changes of state of all channels, in order of log time."""
     states = [state for of_channel, _ in channels for state in of_channel]
     return tuple(
         states[row]
@@ -41,17 +41,16 @@ def merged_states(channels: Sequence[States]) -> tuple[StateChange, ...]:
 
 
 def common_fields(channels: Sequence[Growing]) -> tuple[str, ...]:
-    """Fields that all channels have, in the order of the first."""
+    """Return the fields that all channels have, in the order of the first."""
     return tuple(
         name for name in channels[0].fields if all(name in other.fields for other in channels[1:])
     )
 
 
 def merged_order(channels: Sequence[Times]) -> Rows:
-    """Rows of all channels, one after the other, in order of log time (n,), ns.
+    """Return the rows of all channels, one after the other, in order of log time (n,), ns.
 
-    Channels are merged as sorted lists are: none is put in another order than `time_order` gives
-        it.
+    Channels are merged as sorted lists are: none is put in another order than that of `time_order`.
     """
     orders = [time_order(times) for times in channels]
     keys = [
@@ -65,7 +64,7 @@ def merged_order(channels: Sequence[Times]) -> Rows:
 
 
 def time_order(times: Times) -> Rows:
-    """Rows of a channel in order of log time (n,), ns, where whole stretches of it change places.
+    """Return the rows of a channel in order of log time (n,), ns, by moving whole stretches.
 
     MCAP lets a writer put chunks in any order. Stretches that overlap stay as they are in the file:
     they are ticks that were recorded in the wrong order, which has to be found.

@@ -1,4 +1,4 @@
-"""Where the messages of a chunk are."""
+"""Finds where the messages of a chunk start."""
 
 from collections.abc import Callable
 from struct import Struct
@@ -20,21 +20,26 @@ _DTYPE = np.dtype([("opcode", "u1"), ("length", "<u8"), ("channel", "<u2")])
 def message_starts(
     data: bytes, index: Starts, others: Callable[[int, bytes], None] | None = None
 ) -> Starts:
-    """Offset of every message in a chunk, by channel. Raises LogError where a record is cut.
+    """Return the offset of every message in a chunk, by channel.
 
-    index: what the log says. It is believed only if the records it names fill the chunk without a
-    gap; otherwise, also for other people's chunks with records that are no messages, one record is
-    found after the other, which takes 20 times as long.
-    others: is given opcode and body of each record that is no message, in order; most writers put
-    the descriptions of channels into chunks.
+    Args:
+        data: the records of the chunk.
+        index: the offsets by the log itself. They are used only if the records they name fill the
+            chunk without a gap; otherwise, also for chunks of other writers with records that are
+            no messages, one record is found after the other, which takes 20 times as long.
+        others: called with opcode and body of each record that is no message, in order; most
+            writers put the descriptions of channels into chunks.
+
+    Raises LogError where a record is cut.
     """
     return index if _fills(data, index) else _one_after_the_other(data, others)
 
 
 def windows(data: bytes, dtype: np.dtype[np.void]) -> NDArray[np.void]:
-    """The bytes of a record of `dtype` from every byte of the data on, as far as they fit.
+    """Return the bytes of a record of `dtype` from every byte of the data on, as far as they fit.
 
-    `view` makes it a record.
+    The windows overlap without a copy: element i is the stretch of `dtype.itemsize` bytes from byte
+    i on. `view` makes a record of it.
     """
     return np.ndarray(
         (max(len(data) - dtype.itemsize + 1, 0),), f"V{dtype.itemsize}", data, strides=(1,)
@@ -42,7 +47,7 @@ def windows(data: bytes, dtype: np.dtype[np.void]) -> NDArray[np.void]:
 
 
 def _fills(data: bytes, index: Starts) -> bool:
-    """Whether the index names messages that follow one another from the first byte of the data to the last.
+    """Return whether the index names messages that fill the data from first byte to last.
 
     They do if the first byte is a start, if every message ends where one starts or with the data,
     and if their lengths add up to the data's: from the first byte on, one leads to the next up to

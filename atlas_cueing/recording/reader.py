@@ -34,19 +34,18 @@ _LOOSE = 2**20  # bytes of messages outside of chunks that are read at a time
 
 
 def read_log(path: str | Path, max_bytes: int = MAX_LOG) -> Log:
-    """Read a complete log of our topics into memory.
+    """Read a complete log of this program's topics into memory.
 
     Args:
         path: a log as `McapRecorder` writes it, or a valid MCAP file of its topics by any other
             writer; topics and fields may have been added.
         max_bytes: bound on the unpacked messages; about half of it is kept in memory.
 
-    Raises: LogError: the file cannot be read, is cut or damaged (every checksum is checked), is not
-        a log of ours,
-            or none of the messages of a topic of ours can be read.
+    Raises LogError when the file cannot be read, is cut or damaged (every checksum is checked), has
+    none of this program's topics, or none of the messages of such a topic can be read.
     """
     path = Path(path)
-    with telling(path), path.open("rb") as stream:
+    with errors_of_reading(path), path.open("rb") as stream:
         content = _Content(path, max_bytes)
         for record in RecordReader(stream).records():
             content.add(record)
@@ -54,8 +53,8 @@ def read_log(path: str | Path, max_bytes: int = MAX_LOG) -> Log:
 
 
 @contextmanager
-def telling(path: Path) -> Iterator[None]:
-    """Every error of reading as a LogError of one line that names the file."""
+def errors_of_reading(path: Path) -> Iterator[None]:
+    """Turn every error of reading into a LogError of one line that names the file."""
     try:
         yield
     except LogError as error:
@@ -78,7 +77,7 @@ def telling(path: Path) -> Iterator[None]:
 
 
 class _Content:
-    """What has been found in a log so far."""
+    """The content of a log up to the present record."""
 
     def __init__(self, path: Path, max_bytes: int) -> None:
         self._builder = LogBuilder(path, max_bytes)
@@ -88,7 +87,7 @@ class _Content:
         self._loose = bytearray()
 
     def add(self, record: McapRecord | MessageOffsets | LooseMessage) -> None:
-        """Take in one record of the data section; the summary repeats what is known."""
+        """Keep one record of the data section; the summary repeats what is known."""
         if isinstance(record, MessageOffsets):
             self._keep_index(record)
             return
@@ -120,19 +119,19 @@ class _Content:
                 builder.check_counts(record.channel_message_counts)
 
     def log(self) -> Log:
-        """All of it, when there are no more records."""
+        """Return the log, after its last record."""
         self._finish_chunk()
         self._finish_loose()
         return self._builder.log()
 
     def _keep_index(self, offsets: MessageOffsets) -> None:
-        """Keep what the log says of the present chunk, unless it names more messages than fit in."""
+        """Keep an index of the present chunk, unless it names more messages than fit in."""
         known = sum(map(len, self._index.values()))
         if self._chunk and (known + len(offsets.offsets)) * _HEAD <= self._chunk.uncompressed_size:
             self._index[offsets.channel] = offsets.offsets.astype(np.int64)
 
     def _finish_chunk(self) -> None:
-        """Read the chunk that was kept, now that whatever index it has is known."""
+        """Read the chunk that was kept, now that its index is known."""
         chunk, index = self._chunk, self._index
         self._chunk, self._index = None, {}
         if chunk is not None:

@@ -1,7 +1,7 @@
-"""From record to record through a cut or damaged file.
+"""Walks from record to record through a cut or damaged file.
 
 Records follow one another by their lengths. Where that chain breaks, the next chunk is found by the
-words every chunk holds, and its checksum says whether it is one.
+words that every chunk holds, and its checksum shows whether it is one.
 """
 
 import mmap
@@ -33,7 +33,13 @@ _KNOWN = {*READ, *_INDEXES, Opcode.HEADER, Opcode.MESSAGE, Opcode.STATISTICS, Op
 
 
 def walk(data: mmap.mmap, found: Salvage, max_searched: int) -> None:
-    """Take every whole record of the file, looking for the next chunk wherever the chain of records breaks."""
+    """Take every whole record of the file; where their chain breaks, look for the next chunk.
+
+    Args:
+        data: the file.
+        found: takes the records.
+        max_searched: bytes in which chunks are looked for, altogether.
+    """
     position, searched = len(MAGIC), 0
     while position < len(data) - len(MAGIC):
         end = _take(data, position, found)
@@ -45,7 +51,7 @@ def walk(data: mmap.mmap, found: Salvage, max_searched: int) -> None:
 
 
 def _take(data: mmap.mmap, start: int, found: Salvage) -> int | None:
-    """Take the record at `start`; where it ends, or None when it is none."""
+    """Take the record at `start`; return where it ends, or None when there is no record."""
     if start + RECORD_HEAD > len(data):
         return None
     opcode, length = _head.unpack_from(data, start)
@@ -71,7 +77,7 @@ def _take(data: mmap.mmap, start: int, found: Salvage) -> int | None:
 
 
 def _take_message(data: mmap.mmap, start: int, end: int, found: Salvage) -> int | None:
-    """Take the message record outside of chunks at `start`, as `_take`."""
+    """Take the message record outside of chunks at `start`; return as `_take` does."""
     if end < start + _message.size or not (end == len(data) - len(MAGIC) or _follows(data, end)):
         return None
     found.take_message(_message.unpack_from(data, start)[2], start, end)
@@ -79,7 +85,7 @@ def _take_message(data: mmap.mmap, start: int, end: int, found: Salvage) -> int 
 
 
 def check_data(data: mmap.mmap, found: Salvage) -> None:
-    """Compare the checksum of the data section, where messages have none of their own."""
+    """Compare the checksum of the data section, if messages have none of their own."""
     end, expected = found.data_end
     if not (found.unchecked and expected):
         return
@@ -91,16 +97,15 @@ def check_data(data: mmap.mmap, found: Salvage) -> None:
 
 
 def _follows(data: mmap.mmap, position: int) -> bool:
-    """Whether a record seems to start there."""
+    """Return whether a record seems to start at `position`."""
     return bool(position + RECORD_HEAD <= len(data) and data[position] in _KNOWN)
 
 
 def _next_start(data: mmap.mmap, position: int, last: int, found: Salvage) -> int:
-    """Start of the next thing that looks like a chunk, up to `last`.
+    """Return the start of the next thing that looks like a chunk, up to `last`.
 
-    The end of the file when there is none.
-
-    Where all messages so far lie outside of chunks, of the next one that another record follows.
+    Where all messages up to here lie outside of chunks, it is that of the next message that another
+    record follows. It is the end of the file when there is none.
     """
     messages = bool(found.loose) and not found.chunks
     pattern, follows = (_MESSAGE, _is_message) if messages else (_CHUNK, _is_chunk)
@@ -114,7 +119,7 @@ def _next_start(data: mmap.mmap, position: int, last: int, found: Salvage) -> in
 
 
 def _is_chunk(data: mmap.mmap, start: int, _: Salvage) -> bool:
-    """Whether the lengths in what looks like a chunk fit each other."""
+    """Return whether the lengths in what looks like a chunk fit each other."""
     length = _head.unpack_from(data, start)[1]
     content = start + RECORD_HEAD
     word = int.from_bytes(data[content + 28 : content + 32], "little")
@@ -123,7 +128,7 @@ def _is_chunk(data: mmap.mmap, start: int, _: Salvage) -> bool:
 
 
 def _is_message(data: mmap.mmap, start: int, found: Salvage) -> bool:
-    """Whether what looks like a message is one of a channel that is known, and another record follows."""
+    """Return whether what looks like a message is of a known channel and a record follows it."""
     if start + _message.size > len(data):
         return False
     _, length, channel, *_ = _message.unpack_from(data, start)

@@ -1,4 +1,4 @@
-"""Ticks into an MCAP log, byte for byte the same for the same run."""
+"""Records ticks in an MCAP log, byte for byte the same for the same run."""
 
 import errno
 import fcntl
@@ -54,19 +54,22 @@ class McapRecorder:
     ) -> None:
         """Open the log.
 
-        Args: path: where the complete log will be. head_S: the rider's head from the sphere centre,
-            m, frame S; /felt is computed there. metadata: the record `atlas.run`, to which result
-            and reason are added at the end. attachments: TOML files by name. chunk_ticks: ticks a
-            chunk; what a killed process loses at most. skip_topics: topics left out. started_ns:
-            makes it a live log: wall clock when the loop started, ns since 1970; log time is this
-            plus the real
-                time elapsed. Without it log time is simulated time from 2000-01-01 on.
-            observer: is given the numbers of each chunk that was written, (n, fields of TOPICS, or
-                of LIVE_TOPICS for a live log), also those of topics left out; if it raises,
+        Args:
+            path: where the complete log will be.
+            head_S: the rider's head from the sphere centre, m, frame S; /felt is computed there.
+            metadata: the record `atlas.run`, to which result and reason are added at the end.
+            attachments: TOML files by name.
+            chunk_ticks: ticks a chunk; what a killed process loses at most.
+            skip_topics: topics left out.
+            started_ns: makes it a live log: wall clock when the loop started, ns since 1970; log
+                time is this plus the real time elapsed. Without it log time is simulated time from
+                2000-01-01 on.
+            observer: called with the numbers of each chunk that was written, (n, fields of TOPICS,
+                or of LIVE_TOPICS for a live log), also those of topics left out; if it raises,
                 `append` and `flush` do, and it is not called again.
 
-        Raises: OutputError: the file cannot be written, a topic is unknown or a chunk too large or
-            empty.
+        Raises OutputError when the file cannot be written, a topic is unknown, or a chunk is too
+        large or empty.
         """
         self._file = -1
         _check_options(chunk_ticks, skip_topics)
@@ -92,7 +95,7 @@ class McapRecorder:
 
     @property
     def part(self) -> Path:
-        """What the log is called until it is complete; it lies beside the real file."""
+        """Path of the log until it is complete, beside the real file."""
         return self._destination.path.with_name(f"{self._destination.path.name}.part")
 
     def append(self, tick: Tick) -> None:
@@ -124,8 +127,9 @@ class McapRecorder:
         """
         self.flush()
         try:
-            told = {**self._metadata, "result": result, "reason": reason}
-            self._container.add_metadata(RUN_METADATA, {utf8(key): utf8(told[key]) for key in told})
+            pairs = {**self._metadata, "result": result, "reason": reason}
+            metadata = {utf8(key): utf8(value) for key, value in pairs.items()}
+            self._container.add_metadata(RUN_METADATA, metadata)
             self._container.finish()
             os.fsync(self._file)  # or a power cut could leave the name without its bytes
             self._release()
@@ -135,9 +139,9 @@ class McapRecorder:
             raise self._fail(error) from error
 
     def abandon(self) -> None:
-        """Let go of the file as it is: an unfinished log stays a .part with its complete chunks.
+        """Close the file as it is: an unfinished log stays a .part with its complete chunks.
 
-        Harmless after `close`.
+        It is harmless after `close`.
         """
         self._stop("the recorder is closed")
         self._release()
@@ -151,7 +155,7 @@ class McapRecorder:
             os.close(file)
 
     def _open(self) -> None:
-        """An empty file that nobody else writes."""
+        """Open an empty file that no other process writes."""
         if self.part.is_symlink():
             raise OSError(errno.ELOOP, f"{self.part} is a symbolic link")
         self._file = os.open(self.part, _OPENING, 0o666)
@@ -203,16 +207,16 @@ class McapRecorder:
         self._observer = observer
 
     def _log_times(self, rows: Array) -> Times:
-        """Log time (ns) of each tick."""
+        """Return the log time (ns) of each tick."""
         if self._started is None:
             return log_times(rows[:, 0])
         self._check_time("elapsed", rows[:, ELAPSED], _BEFORE_START)
         return live_log_times(rows[:, ELAPSED], self._started)
 
     def _status_records(self, ticks: Array, times: Times) -> list[Extra]:
-        """The changes of state of this chunk, each after the ticks up to its time.
+        """Return the changes of state of this chunk, each after the ticks up to its time.
 
-        In a live log at the last one's.
+        In a live log each has the log time of the last of them.
         """
         if STATUS not in self._channels:
             return []
@@ -228,7 +232,10 @@ class McapRecorder:
         return records
 
     def _check_time(self, what: str, times: Array, later_than: float) -> None:
-        """Refuse times that a log cannot hold (a NaN would become a date), and ticks that do not come one after the other."""
+        """Refuse times that a log cannot hold, and ticks that are not in order.
+
+        A NaN would become a date.
+        """
         good = (times >= 0.0) & (times <= LATEST_S)
         good[1:] &= times[1:] > times[:-1]
         good[:1] &= times[:1] > later_than
@@ -243,7 +250,7 @@ class McapRecorder:
             self._refuse_after_failure()
 
     def _write(self, data: bytes) -> None:
-        """All of data to the file, or OSError: a full disk first takes a part of it."""
+        """Write all of data, or raise OSError: a full disk first takes a part of it."""
         view = memoryview(data)
         while view:
             view = view[os.write(self._file, view) :]
@@ -255,7 +262,7 @@ class McapRecorder:
 
     def _stop(self, reason: str) -> None:
         self._failure = self._failure or f"cannot write log {self._path}: {reason}"
-        self._full = 0  # makes the next `append` come and see
+        self._full = 0  # so that the next `append` flushes, and finds the failure
 
     def _refuse_after_failure(self) -> None:
         if self._failure:

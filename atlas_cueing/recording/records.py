@@ -1,6 +1,6 @@
-"""Records of an MCAP file one after the other, with every checksum checked.
+"""Reads the records of an MCAP file one after the other, with every checksum checked.
 
-mcap's own reader takes a message at a time and unpacks whatever size a chunk claims; here a chunk
+mcap's own reader takes a message at a time and unpacks any size that a chunk claims; here a chunk
 stays whole and bounded.
 """
 
@@ -32,7 +32,7 @@ from ..errors import LogError
 from .compression import check_crc
 from .container import MAGIC
 
-MAX_RECORD = 64 * 2**20  # bytes; ours are below 1 MB, an attachment may be larger
+MAX_RECORD = 64 * 2**20  # bytes; the recorder's are below 1 MB, an attachment may be larger
 _head = Struct("<BQ")
 _index_head = Struct("<HI")  # channel, bytes of the entries that follow
 _ENTRY = np.dtype([("log_time", "<u8"), ("offset", "<u8")])
@@ -51,7 +51,7 @@ _READ = {
 
 @dataclass(frozen=True, slots=True)
 class MessageOffsets:
-    """What a log says about the chunk before: where the messages of a channel start in it."""
+    """Where the messages of a channel start in the chunk before, by the log's own index."""
 
     channel: int
     offsets: NDArray[np.uint64]
@@ -59,14 +59,14 @@ class MessageOffsets:
 
 @dataclass(frozen=True, slots=True)
 class LooseMessage:
-    """A message record, whole, that lies outside of chunks."""
+    """A whole message record that lies outside of chunks."""
 
     record: bytes
 
 
 @dataclass(slots=True)
 class RecordReader:
-    """Reads the records of `stream`; the data section ends with a DataEnd, the file with a Footer."""
+    """Reads the records of `stream`, up to the Footer."""
 
     stream: BinaryIO
     _crc: int = field(default=0, init=False)
@@ -74,10 +74,12 @@ class RecordReader:
     _data_end: int = field(default=0, init=False)
 
     def records(self) -> Iterator[McapRecord | MessageOffsets | LooseMessage]:
-        """Yield all records but the summary's indexes.
+        """Yield all records but the summary's indexes; the data section ends with a DataEnd.
 
-        A checksum of 0 is none, as the format has it. Raises LogError where the file is cut, a
-        checksum wrong, or the summary not where the footer has it.
+        A checksum of 0 means that there is none, by the format.
+
+        Raises LogError where the file is cut, a checksum is wrong, or the summary is not where the
+        footer has it.
         """
         if self._take(len(MAGIC)) != MAGIC:
             raise LogError("this is no MCAP file")
@@ -114,7 +116,7 @@ class RecordReader:
             raise LogError("the file does not end after its footer")
 
     def _check_summary(self, start: int) -> None:
-        """The summary follows the data; 0 means that there is none."""
+        """Check that the summary follows the data; a start of 0 means that there is none."""
         if start not in (0, self._data_end):
             raise LogError(f"the footer has the summary at byte {start}; it is at {self._data_end}")
 
@@ -128,7 +130,7 @@ class RecordReader:
 
 
 def _offsets(body: bytes) -> MessageOffsets:
-    """A MessageIndex record, whole; mcap's own class takes an entry at a time."""
+    """Read a MessageIndex record at once; mcap's own class takes an entry at a time."""
     channel, size = _index_head.unpack_from(body)
     if size != len(body) - _index_head.size:
         raise LogError("an index claims another size than it has")

@@ -1,4 +1,4 @@
-"""Everything that is whole in a cut or damaged log, and a new log of it."""
+"""Recovers what is whole in a cut or damaged log, and writes a new log of it."""
 
 import mmap
 import struct
@@ -33,7 +33,7 @@ _message = struct.Struct("<BQHIQ")  # opcode, length, channel, sequence, log tim
 def salvage(path: str | Path, max_bytes: int) -> Salvage:
     """Find everything whole in `path`, whose chunks may unpack to `max_bytes` together.
 
-    Raises LogError when it cannot be read or holds no complete chunk of ours.
+    Raises LogError when it cannot be read or holds no complete chunk of this program.
     """
     path = Path(path)
     found = Salvage(path, max_bytes)
@@ -48,21 +48,19 @@ def salvage(path: str | Path, max_bytes: int) -> Salvage:
     except TooLargeError as error:
         raise LogError(f"{path}: {error}") from error
     if not found.chunks and not found.loose:
-        told = f" ({found.objections[0]})" if found.objections else ""
+        why = f" ({found.objections[0]})" if found.objections else ""
         raise LogError(
-            f"{path}: there is nothing to recover: no complete chunk of a log of atlas_cueing{told}"
+            f"{path}: there is nothing to recover: no complete chunk of a log of atlas_cueing{why}"
         )
     found.complete = found.complete and found.finished
     return found
 
 
 def contents(found: Salvage) -> Log:
-    """Everything that was found, read into memory.
+    """Read everything that was found into memory; count pieces that cannot be read in `found`.
 
-    Pieces that cannot be read are counted in `found`.
-
-    Raises LogError when the description of a channel of ours is lost, or nothing that was found is
-    ours.
+    Raises LogError when the description of a channel of this program is lost, or nothing of this
+    program was found.
     """
     undescribed = sorted(found.used - found.channels.keys())
     described = {channel.topic for channel in found.channels.values()}
@@ -86,11 +84,18 @@ def contents(found: Salvage) -> Log:
 def rewrite(
     found: Salvage, output: Path, metadata: Mapping[str, str], log: Log | None = None
 ) -> None:
-    """Write a finished log of all that was found to `output`, under a passing name until it is complete.
+    """Write a finished log of all that was found, under a temporary name until it is complete.
 
-    log: the contents of `found`, when they have been read. Chunks of ours are copied, with all
-    channels; what lies in any other way is written anew as this program does, without the channels
-    that it cannot read. Raises LogError as `contents`, and OSError when it cannot be written.
+    Chunks of this program are copied, with all channels; what lies in any other way is written anew
+    as this program does, without the channels that it cannot read.
+
+    Args:
+        found: what was found in the broken log.
+        output: path of the new log.
+        metadata: the record `atlas.run` of the new log.
+        log: the contents of `found`, if they have been read.
+
+    Raises LogError as `contents` does, and OSError when the log cannot be written.
     """
     log = log or contents(found)
     destination = Destination(output)
@@ -109,9 +114,9 @@ def rewrite(
 
 
 def copied(found: Salvage) -> bool:
-    """Whether the chunks are copied as they are.
+    """Return whether the chunks are copied as they are.
 
-    All of it lies as this program writes it, and can be read.
+    They are if all of the log lies as this program writes it, and can be read.
     """
     topics = [channel.topic for channel in found.channels.values()]
     return (
@@ -140,7 +145,7 @@ def _copy(
 
 
 def _encoded(data: bytes) -> EncodedChunk:
-    """The chunk with the index of its messages made again."""
+    """Return the chunk with a new index of its messages."""
     index: dict[int, list[tuple[int, int]]] = {}
     for start, channel, log_time in _messages(data):
         index.setdefault(channel, []).append((log_time, start))
@@ -159,7 +164,7 @@ def _is_protobuf(found: Salvage, channel: Channel) -> bool:
 
 
 def _builder(found: Salvage) -> LogBuilder:
-    """With all descriptions and files that were found."""
+    """Return a builder with all descriptions and files that were found."""
     builder = LogBuilder(found.path, _ANY)  # what chunks unpack to has been counted
     for schema in found.schemas.values():
         builder.add_schema(schema)
@@ -181,12 +186,12 @@ def _builder(found: Salvage) -> LogBuilder:
 def _add_piece(builder: LogBuilder, data: bytes, found: Salvage, *, loose: bool) -> None:
     """Read the messages of a chunk or stretch.
 
-    Those of a stretch one by one, when they cannot be read at once.
+    Those of a stretch are read one by one when they cannot be read at once.
     """
     content = data if loose else unpack(Chunk.read(stream(data)))
     starts = [start for start, _, _ in _messages(content)] if loose else []
     try:
-        # or it is said in other words
+        # recover itself reports messages without a checksum, so none is noted here
         builder.add_messages(content, {}, checked=True, all_or_none=True)
     except BROKEN as error:
         if len(starts) > 1:
@@ -198,7 +203,7 @@ def _add_piece(builder: LogBuilder, data: bytes, found: Salvage, *, loose: bool)
 
 
 def _messages(data: bytes) -> Iterator[tuple[int, int, int]]:
-    """Place, channel and log time (ns) of each message of a chunk."""
+    """Yield offset, channel and log time (ns) of each message of a chunk."""
     position = 0
     while position + _message.size <= len(data):
         opcode, length, channel, _, log_time = _message.unpack_from(data, position)

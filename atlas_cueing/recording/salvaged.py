@@ -1,4 +1,4 @@
-"""What has been found whole in a cut or damaged log so far."""
+"""The content of a cut or damaged log that has been found whole."""
 
 import struct
 from collections.abc import Callable
@@ -29,7 +29,7 @@ READ: dict[int, Callable[[ReadDataStream], McapRecord]] = {
     Opcode.METADATA: Metadata.read,
     Opcode.SCHEMA: Schema.read,
 }
-# what comes of reading a damaged record or message
+# the errors of reading a damaged record or message
 BROKEN = (
     LogError,
     DecodeError,
@@ -49,12 +49,15 @@ class TooLargeError(LogError):
 
 @dataclass(slots=True)
 class Salvage:
-    """What is whole in a log; `complete` says that nothing was found amiss.
+    """What is whole in a log.
 
-    `chunks`, and `loose` stretches of messages outside of chunks, are places in the file, in order.
-    `damaged` counts the pieces that cannot be read, `objections` say why. `doubtful`: messages
-    without a checksum of their own lie in a data section whose checksum is wrong. `ours`: all lies
-    as this program writes it, so that chunks can be copied.
+    complete: nothing was found amiss.
+    chunks: their places in the file, in order.
+    loose: places of stretches of messages outside of chunks, in order.
+    damaged: number of pieces that cannot be read; `objections` are the reasons.
+    doubtful: messages without a checksum of their own lie in a data section whose checksum is
+        wrong.
+    ours: everything lies as this program writes it, so that chunks can be copied.
     """
 
     path: Path
@@ -130,5 +133,5 @@ class Salvage:
 
 
 def stream(data: bytes) -> Any:
-    """As mcap reads records from; it has no types."""
+    """Return the data as the stream that mcap reads records from, which has no types."""
     return ReadDataStream(BytesIO(data))

@@ -2,7 +2,7 @@
 
 A schema record of an MCAP file holds a serialised FileDescriptorSet with the message type and
 everything it imports (https://mcap.dev/spec/registry#protobuf), so that any reader can decode the
-messages without our sources.
+messages without the sources of this program.
 """
 
 from typing import Any
@@ -26,19 +26,22 @@ _STAMP = "google/protobuf/timestamp.proto"
 
 
 def flat_schema(topic: Topic) -> bytes:
-    """FileDescriptorSet of a message of doubles, field i of the table having number i + 1."""
+    """Return the FileDescriptorSet of a message of doubles; field i has number i + 1."""
     return _bundle(_file(topic.schema, [(name, "double") for name in topic.fields]))
 
 
 def status_schema() -> bytes:
-    """FileDescriptorSet of atlas.Status: time_s (double), state and reason (strings)."""
+    """Return the FileDescriptorSet of atlas.Status: time_s (double), state, reason (strings)."""
     return _bundle(
         _file(STATUS_SCHEMA, [("time_s", "double"), ("state", "string"), ("reason", "string")])
     )
 
 
 def transforms_schema() -> bytes:
-    """FileDescriptorSet of foxglove.FrameTransforms (https://docs.foxglove.dev/docs/sdk/schemas/frame-transforms)."""
+    """Return the FileDescriptorSet of foxglove.FrameTransforms.
+
+    https://docs.foxglove.dev/docs/sdk/schemas/frame-transforms
+    """
     stamp = FileDescriptorProto.FromString(timestamp_pb2.DESCRIPTOR.serialized_pb)
     vector = _file("foxglove.Vector3", [(c, "double") for c in "xyz"])
     quaternion = _file("foxglove.Quaternion", [(c, "double") for c in "xyzw"])
@@ -56,7 +59,10 @@ def transforms_schema() -> bytes:
 
 
 def schema_of(topic: str) -> tuple[str, bytes]:
-    """Name and FileDescriptorSet of any topic of the log. Raises KeyError for an unknown one."""
+    """Return name and FileDescriptorSet of any topic of the log.
+
+    Raises KeyError for an unknown topic.
+    """
     if topic == STATUS:
         return STATUS_SCHEMA, status_schema()
     if topic == TF:
@@ -66,9 +72,11 @@ def schema_of(topic: str) -> tuple[str, bytes]:
 
 
 def message_class(name: str, schema: bytes) -> Any:
-    """The message type `name` of a serialised FileDescriptorSet.
+    """Return the message type `name` of a serialised FileDescriptorSet.
 
-    Any, because its fields are known at run time only.
+    Its type is Any, because its fields are known at run time only.
+
+    Raises LogError when the schema has more than MAX_FILES files.
     """
     pool = descriptor_pool.DescriptorPool()
     files = {file.name: file for file in FileDescriptorSet.FromString(schema).file}
@@ -91,14 +99,17 @@ def _add_file(
 
 
 def flat_fields(name: str, schema: bytes) -> tuple[str, ...] | None:
-    """Field names of the message `name` if it is flat doubles numbered from 1 (the layout of `wire`), else None."""
+    """Return the field names of the message `name` if it has the layout of `wire`, else None.
+
+    The layout is doubles only, with numbers from 1 on.
+    """
     fields = _fields_of(name, schema)
     flat = all(f.number == i and _is_double(f) for i, f in enumerate(fields, 1))
     return tuple(f.name for f in fields) if flat and fields else None
 
 
 def number_fields(name: str, schema: bytes) -> tuple[str, ...]:
-    """Names of the fields of the message `name` that hold one number each, of any type."""
+    """Return the fields of the message `name` that hold one number each, of any type."""
     return tuple(field.name for field in _fields_of(name, schema) if _is_number(field))
 
 
@@ -132,7 +143,7 @@ def _is_number(field: FieldDescriptorProto) -> bool:
 def _file(
     name: str, fields: list[tuple[str, str]], imports: list[str] | None = None
 ) -> FileDescriptorProto:
-    """One .proto file with one message; a type that starts with a dot is another message."""
+    """Describe a .proto file with one message; a type that starts with a dot is a message."""
     package, _, short = name.rpartition(".")
     file = FileDescriptorProto(
         name=name.replace(".", "/") + ".proto", package=package, syntax="proto3", dependency=imports

@@ -1,4 +1,4 @@
-"""`/tf`: foxglove.FrameTransforms base -> stage -> cabin with a fixed layout on the wire, for viewers.
+"""Encodes `/tf` for viewers: foxglove.FrameTransforms base -> stage -> cabin in a fixed layout.
 
 The stage is moved by p_WS_W and the cabin turned by q_WS. Field numbers are those of
 `schemas.transforms_schema`. The varints of the time stamp are padded to five bytes, which every
@@ -14,7 +14,7 @@ from ..errors import LogError
 from ..rotations import Array
 from .wire import HEAD, Records, Times, record_template, repeat
 
-# what a message tells, as in /motion
+# fields of a message, as in /motion
 POSE = ("px_m", "py_m", "pz_m", "q_ws_w", "q_ws_x", "q_ws_y", "q_ws_z")
 RATE_HZ = 60.0  # what viewers draw; more would only fill the log
 _NO_TURN = (1.0, 0.0, 0.0, 0.0)
@@ -23,7 +23,7 @@ _DOUBLE = [("tag", "u1"), ("value", "<f8")]
 
 
 def transform_template(channel: int) -> Records:
-    """One record of base -> stage -> cabin with everything constant in place; shape ()."""
+    """Return a record of base -> stage -> cabin with everything constant in place; shape ()."""
     stage, cabin = _transform("base", "stage"), _transform("stage", "cabin")
     dtype = np.dtype(
         [*HEAD, ("stage", _dtype("base", "stage")), ("cabin", _dtype("stage", "cabin"))]
@@ -36,7 +36,14 @@ def transform_template(channel: int) -> Records:
 
 
 def put_transforms(records: Records, times: Times, q_WS: Array, p_WS_W: Array) -> None:
-    """Write log times (n,) ns, q_WS (n, 4) and p_WS_W (n, 3) m into n records of `transform_template`."""
+    """Fill n records of `transform_template`.
+
+    Args:
+        records: (n,), written.
+        times: log times (n,), ns.
+        q_WS: orientation of the cabin (n, 4).
+        p_WS_W: position of the stage in W (n, 3), m.
+    """
     records["log_time"] = records["publish_time"] = times
     seconds, nanoseconds = (_varint(part) for part in np.divmod(times, np.uint64(1_000_000_000)))
     for part in ("stage", "cabin"):
@@ -46,9 +53,9 @@ def put_transforms(records: Records, times: Times, q_WS: Array, p_WS_W: Array) -
 
 
 def take_transforms(records: Records) -> Array | None:
-    """POSE (n, 7) of n records of `transform_template`.
+    """Return POSE (n, 7) of n records of `transform_template`.
 
-    None if anything else in them is not as the template has it.
+    It is None if anything else in them is not as the template has it.
     """
     expected = repeat(transform_template(0), len(records))
     for name in ("channel", "log_time", "publish_time"):
@@ -65,9 +72,9 @@ def take_transforms(records: Records) -> Array | None:
 
 
 def pose_of(message: Any) -> tuple[float, ...] | None:
-    """POSE of a decoded foxglove.FrameTransforms; None when it tells of other frames only.
+    """Return POSE of a decoded foxglove.FrameTransforms; None when it has other frames only.
 
-    Raises LogError when the stage turns or the cabin moves in it, which ours do not.
+    Raises LogError when the stage turns or the cabin moves in it, as in no log of this program.
     """
     found = {(each.parent_frame_id, each.child_frame_id): each for each in message.transforms}
     stage, cabin = found.get(("base", "stage")), found.get(("stage", "cabin"))
@@ -87,7 +94,7 @@ def _turn(transform: Any) -> tuple[float, ...]:
 
 
 def _dtype(parent: str, child: str) -> np.dtype[np.void]:
-    """Layout of `_transform`."""
+    """Return the layout of `_transform`."""
     return np.dtype(
         [
             ("until_seconds", "u1", (5,)),
@@ -104,7 +111,7 @@ def _dtype(parent: str, child: str) -> np.dtype[np.void]:
 
 
 def _transform(parent: str, child: str) -> bytes:
-    """An element of `transforms` on the wire, with zeros for time stamp, translation and rotation."""
+    """Return an element of `transforms` on the wire, with zeros for stamp and motion."""
     stamp = b"\x08" + bytes(_VARINT) + b"\x10" + bytes(_VARINT)
     vector = b"".join(bytes((tag, *bytes(8))) for tag in (0x09, 0x11, 0x19))
     quaternion = vector + b"\x21" + bytes(8)
@@ -120,7 +127,10 @@ def _transform(parent: str, child: str) -> bytes:
 
 
 def _varint(values: Times) -> NDArray[np.uint8]:
-    """Varints (n, 5) of numbers below 2^35: seven bits a byte, the lowest first, with a flag on all but the last byte."""
+    """Return the varints (n, 5) of numbers below 2^35.
+
+    They have seven bits a byte, the lowest first, with a flag on all but the last byte.
+    """
     bits = values[:, None] >> np.arange(0, 7 * _VARINT, 7, dtype=np.uint64) & np.uint64(0x7F)
     bits[:, :-1] |= np.uint64(0x80)
     return bits.astype(np.uint8)

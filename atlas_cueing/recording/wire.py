@@ -1,4 +1,4 @@
-"""Fixed wire layout of the messages, so that numpy writes and reads a whole chunk at once.
+"""The fixed wire layout of the messages, with which numpy writes and reads a whole chunk at once.
 
 A protobuf field of type double is a tag (number << 3 | 1, as a varint) and 8 bytes, little-endian
 (https://protobuf.dev/programming-guides/encoding). Zeros are written too, so a message of n doubles
@@ -36,7 +36,7 @@ _ONE_BYTE_TAGS = 15
 
 
 def log_times(time_s: Array) -> Times:
-    """Simulated time (s, finite, 0 <= t <= LATEST_S) to the nearest ns of log time.
+    """Return the log times (ns) of simulated times (s, finite, 0 <= t <= LATEST_S), rounded.
 
     Whole seconds are split off first (exactly): 1e9 times the fraction is good to 1e-7 ns, at any
     time of a flight.
@@ -52,13 +52,13 @@ def log_times(time_s: Array) -> Times:
 
 
 def live_log_times(elapsed_s: Array, started_ns: int) -> Times:
-    """As `log_times`, for real time since a start at `started_ns` (ns since 1970)."""
+    """Return the log times (ns) of real times (s) since `started_ns` (ns since 1970), rounded."""
     since: Times = log_times(elapsed_s) - np.uint64(EPOCH_NS)
     return since + np.uint64(started_ns)
 
 
 def record_template(channel: int, body: bytes, log_time: int = 0) -> bytes:
-    """A whole MCAP message record with this body; sequence 0, publish time = log time."""
+    """Return a whole MCAP message record with this body; sequence 0, publish time = log time."""
     head = np.array(
         (MESSAGE_OPCODE, _MESSAGE_HEAD + len(body), channel, 0, log_time, log_time), dtype=HEAD
     )
@@ -66,14 +66,18 @@ def record_template(channel: int, body: bytes, log_time: int = 0) -> bytes:
 
 
 def record_content(data: bytes, offset: int) -> tuple[int, int]:
-    """Where the content of the message record at `offset` begins and ends."""
+    """Return where the content of the message record at `offset` begins and ends."""
     length = int.from_bytes(data[offset + 1 : offset + RECORD_HEAD], "little")
     return offset + RECORD_HEAD + _MESSAGE_HEAD, offset + RECORD_HEAD + length
 
 
 @lru_cache
 def flat_dtype(fields: int) -> np.dtype[np.void]:
-    """A message record with `fields` doubles: the record's head, then `near` and `far` fields of (tag, value)."""
+    """Return the layout of a message record with `fields` doubles.
+
+    After the record's head come `near` and `far` fields of (tag, value), the far ones with tags of
+    two bytes.
+    """
     near = min(fields, _ONE_BYTE_TAGS)
     body: list[Any] = [("near", [("tag", "u1"), ("value", "<f8")], (near,))]
     if fields > near:
@@ -82,17 +86,12 @@ def flat_dtype(fields: int) -> np.dtype[np.void]:
 
 
 def flat_template(channel: int, fields: int) -> Records:
-    """One record of `flat_dtype` with everything constant in place and all values zero.
-
-    Shape ().
-    """
+    """Return a record of `flat_dtype` with everything constant in place and zeros; shape ()."""
     dtype = flat_dtype(fields)
     template = np.zeros((), dtype)
-    template["opcode"], template["length"], template["channel"] = (
-        MESSAGE_OPCODE,
-        dtype.itemsize - RECORD_HEAD,
-        channel,
-    )
+    template["opcode"] = MESSAGE_OPCODE
+    template["length"] = dtype.itemsize - RECORD_HEAD
+    template["channel"] = channel
     tags = np.arange(1, fields + 1) << 3 | 1
     template["near"]["tag"] = tags[:_ONE_BYTE_TAGS]
     if fields > _ONE_BYTE_TAGS:
@@ -102,9 +101,9 @@ def flat_template(channel: int, fields: int) -> Records:
 
 
 def repeat(template: Records, count: int) -> Records:
-    """`count` writable copies of a record of shape (), as (count,).
+    """Return `count` writable copies of a record of shape (), as (count,).
 
-    Numpy's own broadcast is slow for structures.
+    The broadcast of numpy is slow for structures.
     """
     return np.frombuffer(bytearray(template.tobytes() * count), template.dtype)
 
@@ -118,14 +117,14 @@ def put(records: Records, values: Array) -> None:
 
 @lru_cache
 def _tags(fields: int) -> Records:
-    """A record with its tags in place, to be read only."""
+    """Return a record with its tags in place, to be read only."""
     return flat_template(0, fields)
 
 
 def take(records: Records, fields: int) -> Array | None:
-    """Values (n, fields) of n records of `flat_dtype`.
+    """Return the values (n, fields) of n records of `flat_dtype`.
 
-    None if any tag is not where the layout has it.
+    They are None if any tag is not where the layout has it.
     """
     expected = _tags(fields)
     values = np.empty((len(records), fields))

@@ -2,14 +2,16 @@
 
 from .build import build_pipeline, prepare
 from .evaluate import Evaluation, Evaluator, evaluate_flight, evaluate_log
-from .fly import RunResult, run_scenario
+from .fly import run_scenario
 from .output import PAGE, check_output
+from .result import LiveFigures, RunResult
 from .stop_request import StopRequest
 
 __all__ = [
     "PAGE",
     "Evaluation",
     "Evaluator",
+    "LiveFigures",
     "RunResult",
     "StopRequest",
     "build_pipeline",

@@ -15,7 +15,8 @@ from ..scenario import Scenario
 from ..signals import Sink, Vehicle, VehicleState, attitude_jump
 from ..vehicles import JsbsimVehicle, SignalFlight, SignalVehicle
 from .build import prepare
-from .evaluate import Evaluation, Evaluator
+from .evaluate import Evaluator
+from .result import RunResult
 from .stop_request import StopRequest
 
 Progress: TypeAlias = Callable[[float], None]  # called now and then with the flight time, s
@@ -26,43 +27,6 @@ Progress: TypeAlias = Callable[[float], None]  # called now and then with the fl
 JUMP: Final = radians(0.5)
 # ticks taken through the pipeline stage by stage; also from one call of Progress to the next
 BLOCK: Final = 256
-
-
-@dataclass(frozen=True, slots=True)
-class RunResult:
-    """What came of a run.
-
-    result: ok, vehicle_failed, interrupted or recording_failed; `reason` says why it is not ok.
-    log: the finished log; after recording_failed the .part with what could be written.
-    wall: time from loading the vehicle to the last tick recorded, s.
-    """
-
-    result: str
-    reason: str
-    log: Path
-    ticks: int
-    duration: float
-    wall: float
-    evaluation: Evaluation
-
-    @property
-    def clean(self) -> bool:
-        """Nothing failed and every limit was kept."""
-        return self.result == "ok" and not self.evaluation.violations
-
-    def to_json(self) -> dict[str, object]:
-        """Everything by name, the unit in the name; a metric may be infinite or NaN."""
-        return {
-            "result": self.result,
-            "reason": self.reason,
-            "log": str(self.log),
-            "ticks": self.ticks,
-            "duration_s": self.duration,
-            "wall_s": self.wall,
-            "violations": list(self.evaluation.violations),
-            "metrics": self.evaluation.metrics,
-            "limit_use": self.evaluation.limit_use,
-        }
 
 
 @dataclass(slots=True)
@@ -102,9 +66,9 @@ def run_scenario(
         _record(vehicle, pipeline, recorder, flown, progress)
     except OutputError as error:
         recorder.abandon()
-        part, wall = recorder.part, perf_counter() - begun
+        wall = perf_counter() - begun
         return RunResult(
-            "recording_failed", str(error), part, flown.ticks, flown.time, wall, Evaluation()
+            "recording_failed", str(error), recorder.part, flown.ticks, flown.time, wall
         )
     wall = perf_counter() - begun
     return RunResult(

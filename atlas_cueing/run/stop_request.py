@@ -1,28 +1,40 @@
-"""Ctrl-C and SIGTERM as a question asked between two ticks, so that the log is always finished."""
+"""Ctrl-C and SIGTERM as a number that is looked at between two ticks.
+
+So the log is always finished.
+"""
 
 import signal
 import threading
 from types import FrameType, TracebackType
-from typing import Any
+from typing import Any, Self
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
 class StopRequest:
-    """While entered, the first signal sets `requested`.
+    """Counts the signals that ask this process to end, while it is entered.
 
-    A second one raises KeyboardInterrupt at once.
-
-    Outside the main thread, where Python does not deliver signals, nothing is caught.
+    Outside the main thread, where Python does not deliver signals, nothing is counted.
     """
 
-    def __init__(self) -> None:
-        self.requested = False
+    def __init__(self, *, interrupt: bool = True) -> None:
+        """Prepare to count.
+
+        interrupt: whether the second signal raises KeyboardInterrupt at once, for what can be
+            stopped anywhere; otherwise it is counted like the first.
+        """
+        self.count = 0
+        self._interrupt = interrupt
         self._before: dict[signal.Signals, Any] = {}
 
-    def __enter__(self) -> "StopRequest":
+    @property
+    def requested(self) -> bool:
+        """Whether the process has been asked to end."""
+        return self.count > 0
+
+    def __enter__(self) -> Self:
         if threading.current_thread() is threading.main_thread():
-            self._before = {number: signal.signal(number, self._ask) for number in _SIGNALS}
+            self._before = {number: signal.signal(number, self._handle) for number in _SIGNALS}
         return self
 
     def __exit__(
@@ -34,7 +46,7 @@ class StopRequest:
         for number, handler in self._before.items():
             signal.signal(number, handler)
 
-    def _ask(self, _number: int, _frame: FrameType | None) -> None:
-        if self.requested:
+    def _handle(self, _number: int, _frame: FrameType | None) -> None:
+        self.count += 1
+        if self._interrupt and self.count > 1:
             raise KeyboardInterrupt
-        self.requested = True

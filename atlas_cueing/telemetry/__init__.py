@@ -1,11 +1,25 @@
-"""TO WRITE."""
+"""What a live run shares with other processes of this machine.
 
+A ring of ticks and changes of state, the operator's buttons, child processes that follow the run,
+and a gate that keeps web pages of other hosts away from its servers.
+"""
+
+from .child_process import ChildProcess, Left, ProcessExit
 from .messages import LiveWriter, live_ring
+from .operator_buttons import BUTTONS, OperatorButtons
+from .origin_gate import OriginGate, listen
 from .ring import Ring, RingReader
 
 __all__ = [
+    "BUTTONS",
+    "ChildProcess",
+    "Left",
     "LiveWriter",
+    "OperatorButtons",
+    "OriginGate",
+    "ProcessExit",
     "Ring",
     "RingReader",
+    "listen",
     "live_ring",
 ]

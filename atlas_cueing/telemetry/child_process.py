@@ -1,4 +1,4 @@
-"""A process that is forked before the loop starts and follows it, whatever happens to either of them."""
+"""A child process that is forked before the loop starts and follows it, until either ends."""
 
 import os
 import signal
@@ -11,29 +11,39 @@ from time import monotonic
 from typing import NoReturn, TypeAlias
 
 Left: TypeAlias = Callable[[], bool]
-"""Whether the parent is gone or waits in `finish`, and nothing more is to be expected of it."""
+"""Returns whether the parent has ended or waits in `finish`: nothing more will come from it."""
 
 _FAILED = 70  # exit status after an exception: EX_SOFTWARE of sysexits.h
-# a terminal sends them to all; the loop decides what they mean
+# a terminal sends them to all its processes; the loop decides what they mean
 _IGNORED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 @dataclass(frozen=True, slots=True)
 class ProcessExit:
-    """How a process ended: what its function returned, and its exit status (negative: the signal that killed it)."""
+    """How a process ended.
+
+    answer: what its function returned; empty if it did not return.
+    status: exit status; negative for the signal that killed it.
+    """
 
     answer: bytes
     status: int
 
 
 class ChildProcess:
-    """A function in a process of its own, which shares whatever memory is shared at the fork.
+    """A function in a process of its own, with the memory that is shared at the fork.
 
-    The process takes no notice of SIGINT, SIGTERM and SIGHUP; it lives until its function returns.
+    The process ignores SIGINT, SIGTERM and SIGHUP; it lives until its function returns.
+
+    pid: process id.
     """
 
     def __init__(self, function: Callable[[Left], bytes]) -> None:
-        """Start `function`; it has to ask the Left it is given every now and then, and to return soon when that is true."""
+        """Fork and run `function`.
+
+        It has to call the Left it is given every now and then, and to return soon after that has
+        returned True.
+        """
         self._channel, theirs = socket.socketpair()
         self._ended: ProcessExit | None = None
         parent = os.getpid()
@@ -47,16 +57,16 @@ class ChildProcess:
 
     @property
     def alive(self) -> bool:
-        """Whether it runs; asks without waiting."""
+        """Whether it runs; does not wait."""
         return (
             self._ended is None
             and os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None
         )
 
     def finish(self, timeout: float) -> ProcessExit:
-        """Let it end, and wait for that: at most `timeout` s, then it is killed.
+        """Wait for its end, at most `timeout` s; then it is killed.
 
-        Harmless when called again.
+        A second call is harmless.
         """
         if self._ended is None:
             answer = self._answer(monotonic() + timeout)
@@ -66,7 +76,7 @@ class ChildProcess:
         return self._ended
 
     def _answer(self, deadline: float) -> bytes:
-        """All it has to say; the end of that is the end of the process."""
+        """Return what its function returned; the end of that is the end of the process."""
         answer = b""
         try:
             self._channel.shutdown(socket.SHUT_WR)
@@ -76,7 +86,7 @@ class ChildProcess:
                 if not piece:
                     return answer
                 answer += piece
-        except OSError:  # a TimeoutError, or it is gone and left our word unread
+        except OSError:  # a TimeoutError, or it has ended and left the shutdown unread
             # we have not waited for it yet, so the number is still its own
             os.kill(self.pid, signal.SIGKILL)
             return b""
@@ -85,7 +95,7 @@ class ChildProcess:
 def _run(
     function: Callable[[Left], bytes], channel: socket.socket, parent: int, mask: Iterable[int]
 ) -> NoReturn:
-    """What the forked process does, and all it does: nothing of the parent's own is ever tidied up here."""
+    """Run the function in the forked process, and end it without the parent's own clean-up."""
     status = _FAILED
     try:
         for number in _IGNORED:
@@ -94,7 +104,7 @@ def _run(
         channel.setblocking(False)
         answer = function(lambda: _left(channel, parent))
         status = 0
-        with suppress(OSError):  # nobody is left to hear it
+        with suppress(OSError):  # the parent has ended
             channel.sendall(answer)
     except BaseException:  # noqa: BLE001 - must not climb into a copy of the parent's stack
         traceback.print_exc()
@@ -103,9 +113,9 @@ def _run(
 
 
 def _left(channel: socket.socket, parent: int) -> bool:
-    """See Left.
+    """Return whether the parent has left, see Left.
 
-    The parent's number is asked, too: a sibling may hold a copy of its end of the channel.
+    The parent's process id is looked at, too: a sibling may hold a copy of its end of the channel.
     """
     if os.getppid() != parent:
         return True

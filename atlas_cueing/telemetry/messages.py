@@ -1,4 +1,4 @@
-"""What a live run puts into its ring, and who reads it: ticks, changes of state and the end."""
+"""The messages in the ring of a live run: ticks, changes of state and the end."""
 
 import json
 from struct import Struct
@@ -14,36 +14,36 @@ _SIZE = max(_row.size, 3 * (2 * LONGEST_TEXT + 60))
 
 
 def live_ring(seconds: float, rate: float) -> Ring:
-    """A ring that holds the last `seconds` of a run of `rate` Hz, and the changes of state among them."""
+    """Return a ring for the last `seconds` of a run of `rate` Hz, changes of state included."""
     return Ring(max(256, round(1.1 * seconds * rate)), _SIZE)
 
 
 class LiveWriter:
-    """The loop's end of the ring; no call waits for anybody."""
+    """The loop's end of the ring; no call waits for a reader."""
 
     def __init__(self, ring: Ring) -> None:
         self._ring = ring
 
     def tick(self, tick: Tick, timing: Timing) -> None:
-        """Hand on one tick."""
+        """Write one tick and its timing."""
         self._ring.write(TICK, _row.pack(*live_row(tick, timing)))
 
     def status(self, time: float, state: str, reason: str) -> None:
-        """Hand on a change of state at `time` (s)."""
+        """Write a change of state at `time` (s)."""
         self._ring.write(STATUS, _text(time, state, reason))
 
     def end(self, time: float, result: str, reason: str) -> None:
-        """Nothing comes after this."""
+        """Write the end of the run at `time` (s), its last message."""
         self._ring.write(END, _text(time, result, reason))
 
 
 def numbers(data: bytes) -> tuple[float, ...]:
-    """The row of a TICK (`signals.live_row`)."""
+    """Return the row of a TICK (`signals.live_row`)."""
     return _row.unpack(data)
 
 
 def status(data: bytes) -> StateChange:
-    """The content of a STATUS, or of an END with the result as its state."""
+    """Return the content of a STATUS, or of an END with the result as its state."""
     time, state, reason = json.loads(data)
     return StateChange(time, state, reason)
 

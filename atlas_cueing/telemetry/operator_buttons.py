@@ -1,8 +1,7 @@
-"""What the operator pressed, in memory shared between processes.
+"""The operator's buttons, in memory shared between processes.
 
-Pressed in one, noticed in another, and nobody waits.
-
-As the ring's, the memory is anonymous and reaches the other process by `fork`.
+They are pressed in one process and read in another, and neither waits. As the ring's, the memory is
+anonymous and reaches the other process by `fork`.
 """
 
 import mmap
@@ -33,7 +32,10 @@ class OperatorButtons:
             self._counts[BUTTONS.index(name)] += 1
 
     def edges(self) -> tuple[str, ...]:
-        """Buttons pressed since the last call, each once however often it was pressed, in the order of BUTTONS."""
+        """Return the buttons pressed since the last call, in the order of BUTTONS.
+
+        Each is returned once, however often it was pressed.
+        """
         counts = self._memory[:_SIZE]
         if counts == self._seen:
             return ()

@@ -1,8 +1,8 @@
-"""A door in front of a WebSocket server: lets in whoever is no web page, and web pages of known origin only.
+"""A gate in front of a WebSocket server: it lets in programs, and web pages of known origin only.
 
 A browser lets any page connect to any port of this machine, and tells the server only the page's
 origin (RFC 6455, 10.2). A server that does not look at it can be put behind this gate, at an
-address that nobody guesses.
+address that cannot be guessed.
 """
 
 import asyncio
@@ -17,19 +17,24 @@ LARGEST_REQUEST = 8192  # bytes of a handshake
 PATIENCE_S = 5.0  # s that a handshake may take
 MOST_CLIENTS = 16
 _PIECE = 65536  # bytes
-_HERE = re.compile(r"https?://(localhost|127\.0\.0\.1|\[::1\])(:\d+)?")
+_HOST = r"(localhost|127\.0\.0\.1|\[::1\])(:\d+)?"
+_OUR_HOST = re.compile(_HOST, re.IGNORECASE)
+_OUR_ORIGIN = re.compile(rf"https?://{_HOST}", re.IGNORECASE)
 _REFUSAL = b"HTTP/1.1 %s\r\nConnection: close\r\nContent-Length: 0\r\n\r\n"
 
 
 class OriginGate:
-    """Hands on connections to a server on this machine.
+    """Relays connections to a server on this machine.
 
-    origins: allowed beside pages of this machine itself (http or https, localhost, any port). A
-    request without an Origin is from a program, not from a page. A client that does not read is not
-    read for: nothing piles up here.
+    A request without an Origin is from a program, not from a page. From the server no more is read
+    than the client takes: nothing piles up here.
     """
 
     def __init__(self, server: tuple[str, int], origins: Collection[str]) -> None:
+        """Prepare to relay to `server` (host and port).
+
+        `origins` are allowed beside pages of this machine (http or https, localhost, any port).
+        """
         self._server, self._origins = server, origins
         self._clients = 0
 
@@ -42,10 +47,10 @@ class OriginGate:
         try:
             await self._admit(reader, writer)
         except (OSError, asyncio.IncompleteReadError, asyncio.LimitOverrunError, TimeoutError):
-            pass  # one client's trouble is nobody else's
+            pass  # one client's trouble does not concern the others
         finally:
             self._clients -= 1
-            await _hang_up(writer)
+            await _close(writer)
 
     async def _admit(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         request = await asyncio.wait_for(reader.readuntil(b"\r\n\r\n"), PATIENCE_S)
@@ -64,12 +69,12 @@ class OriginGate:
             for line in lines
             if line.partition(":")[0].strip().lower() == "origin"
         ]
-        return all(origin in self._origins or _HERE.fullmatch(origin) for origin in origins)
+        return all(origin in self._origins or is_our_origin(origin) for origin in origins)
 
     async def _relay(
         self, request: bytes, reader: asyncio.StreamReader, writer: asyncio.StreamWriter
     ) -> None:
-        """Both ways until either side ends."""
+        """Relay both ways until either side ends."""
         from_server, to_server = await asyncio.open_connection(*self._server)
         try:
             to_server.write(request)
@@ -84,13 +89,23 @@ class OriginGate:
                     way.cancel()
                 await asyncio.gather(*ways, return_exceptions=True)
         finally:
-            await _hang_up(to_server)
+            await _close(to_server)
+
+
+def is_our_host(host: str) -> bool:
+    """Return whether a Host header names this machine."""
+    return _OUR_HOST.fullmatch(host) is not None
+
+
+def is_our_origin(origin: str) -> bool:
+    """Return whether an Origin header is that of a page of this machine, at any port."""
+    return _OUR_ORIGIN.fullmatch(origin) is not None
 
 
 def listen(host: str, port: int) -> socket.socket:
-    """A TCP socket that listens; port 0 takes a free one.
+    """Return a TCP socket that listens at `host` and `port`; port 0 takes a free one.
 
-    Raises InputError when it cannot be had.
+    Raises InputError when the port is not available.
     """
     listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
     try:
@@ -111,8 +126,8 @@ async def _pump(source: asyncio.StreamReader, sink: asyncio.StreamWriter) -> Non
         await sink.drain()
 
 
-async def _hang_up(writer: asyncio.StreamWriter) -> None:
-    """Close; what a vanished client has not taken is dropped."""
+async def _close(writer: asyncio.StreamWriter) -> None:
+    """Close a connection; what a vanished client has not taken is dropped."""
     with suppress(OSError, TimeoutError):
         await asyncio.wait_for(writer.drain(), PATIENCE_S)
     writer.transport.abort()

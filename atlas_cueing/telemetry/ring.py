@@ -1,7 +1,7 @@
 """The last seconds of a live run, in memory shared between processes.
 
 One process writes and never waits; any number of others read, each at its own pace. A reader that
-falls behind by more than the ring holds loses the oldest messages and is told how many. The memory
+falls behind by more than the ring holds loses the oldest messages and counts them. The memory
 is anonymous and reaches the readers by `fork`: it has no name, so nothing is left behind when a
 process is killed, and what was written can still be read when the writer is gone.
 
@@ -22,9 +22,9 @@ class Ring:
     """A bounded memory of messages (kind, bytes)."""
 
     def __init__(self, slots: int, size: int) -> None:
-        """Room for `slots` messages of at most `size` bytes.
+        """Allocate `slots` messages of at most `size` bytes.
 
-        All of it is touched now, so that no write faults a page in.
+        All of the memory is touched now, so that no write faults a page in.
         """
         self.slots, self.size = slots, size
         self._stride = -(-(_head.size + size) // 8) * 8
@@ -34,7 +34,7 @@ class Ring:
 
     @property
     def written(self) -> int:
-        """Messages written so far, by whoever writes."""
+        """Number of messages written up to now, in any process."""
         return int(_number.unpack_from(self._memory, 0)[0])
 
     def write(self, kind: int, data: bytes) -> None:
@@ -49,9 +49,9 @@ class Ring:
         _number.pack_into(self._memory, 0, self._written)
 
     def read(self, number: int) -> tuple[int, bytes] | None:
-        """Kind and content of message `number` (the first is 0).
+        """Return kind and content of message `number` (the first is 0).
 
-        None when it has been overwritten or is not there yet.
+        It is None when it has been overwritten or is not there yet.
         """
         at = self._place(number)
         found, kind, size = _head.unpack_from(self._memory, at)
@@ -65,7 +65,10 @@ class Ring:
 
 
 class RingReader:
-    """Reads a ring from the message that comes next."""
+    """Reads a ring from its next message on.
+
+    lost: messages that were overwritten before they were read.
+    """
 
     def __init__(self, ring: Ring) -> None:
         self._ring = ring
@@ -73,10 +76,7 @@ class RingReader:
         self.lost = 0
 
     def messages(self) -> Iterator[tuple[int, bytes]]:
-        """All that has been written since the last call, in order.
-
-        `lost` counts what was overwritten before it was read.
-        """
+        """Yield the messages written since the last call, in order."""
         end = self._ring.written
         while self._next < end:
             # the very oldest may be about to be overwritten
@@ -93,6 +93,9 @@ class RingReader:
                 yield message
 
     def newest(self) -> Iterator[tuple[int, bytes]]:
-        """As `messages`, when only what is new matters: all but the last slots / 2 are passed over and not counted as lost."""
+        """Yield the newest messages since the last call, in order.
+
+        All but the last slots / 2 are passed over and not counted as lost.
+        """
         self._next = max(self._next, self._ring.written - self._ring.slots // 2)
         return self.messages()

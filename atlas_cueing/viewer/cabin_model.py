@@ -1,4 +1,4 @@
-"""What turns: the sphere with marks that tell its orientation, and the cockpit inside.
+"""Draws what turns: the sphere with marks that show its orientation, and the cockpit inside.
 
 Frame S: x forward, y left, z up.
 """
@@ -27,7 +27,7 @@ _UP, _PI = np.radians(90.0), np.pi
 
 
 def draw_cabin(scene: "SceneApi", path: str, platform: Platform) -> "FrameHandle":
-    """Draw the cabin; turn it by the frame's `wxyz`."""
+    """Draw the cabin under `path`; return its frame, whose `wxyz` turns it."""
     radius = platform.sphere.radius_m
     frame = scene.add_frame(path, show_axes=False)
     _draw_shell(scene, path, radius)
@@ -38,7 +38,7 @@ def draw_cabin(scene: "SceneApi", path: str, platform: Platform) -> "FrameHandle
 
 
 def _draw_shell(scene: "SceneApi", path: str, radius: float) -> None:
-    """Two halves one can look through, sky above and earth below."""
+    """Draw two transparent halves, sky above and earth below."""
     for name, colour, elevation, opacity in (
         ("sky", _UPPER, (0.0, _UP), 0.22),
         ("earth", _LOWER, (-_UP, 0.0), 0.46),
@@ -56,7 +56,7 @@ def _draw_shell(scene: "SceneApi", path: str, radius: float) -> None:
 
 
 def _draw_marks(scene: "SceneApi", path: str, radius: float) -> None:
-    """Horizon as a chequered belt, meridians and parallels, a red nose, a white crown, a dark tail."""
+    """Draw a chequered belt at the horizon, a grid, a red nose, a white crown, a dark tail."""
     belt, half = np.radians(2.6), np.radians(7.5)
     for name, colour, first in (("belt_dark", _INK, 0.0), ("belt_light", _WHITE, 2.0 * half)):
         starts = first + 4.0 * half * np.arange(12)
@@ -81,7 +81,7 @@ def _draw_marks(scene: "SceneApi", path: str, radius: float) -> None:
 
 
 def _draw_cockpit(scene: "SceneApi", path: str, radius: float) -> None:
-    """A deck, a console and a screen all round the front."""
+    """Draw a deck, a console and a screen all round the front."""
     deck = -0.72 * radius
     draw(
         scene,
@@ -108,13 +108,13 @@ def _draw_cockpit(scene: "SceneApi", path: str, radius: float) -> None:
 
 
 def _draw_rider(scene: "SceneApi", path: str, radius: float, head: Array) -> None:
-    """A seated rider below the platform's `rider.head_m`."""
+    """Draw a seated rider below the platform's `rider.head_m`."""
     size = radius / _MAN
 
     def limbs(
         pairs: list[tuple[tuple[float, float, float], tuple[float, float, float], float]],
     ) -> Mesh:
-        """Rods between pairs of points with a radius each, in a man's own size."""
+        """Return rods between pairs of points with a radius each, in m of a man of usual size."""
         return merged(
             [
                 rod(head + size * np.array(a), head + size * np.array(b), size * r)

@@ -1,4 +1,4 @@
-"""State of a live run in words, and the operator's buttons."""
+"""The panel of a live page: state, figures of the last tick, and the operator's buttons."""
 
 from collections.abc import Callable, Collection, Mapping
 from typing import TYPE_CHECKING, Literal
@@ -34,7 +34,7 @@ _ROW = (
 
 
 class Controls:
-    """The panel. A press goes to `press` if the state allows it, and is confirmed in the panel."""
+    """The panel: a press is passed on if the state allows it, and confirmed in the panel."""
 
     def __init__(
         self,
@@ -43,11 +43,16 @@ class Controls:
         allowed: Mapping[str, Collection[str]],
         names: Collection[str],
     ) -> None:
-        """`allowed` gives the buttons that do something in a state.
+        """Add the panel to a page.
 
-        A button that no state allows does nothing.
+        Args:
+            gui: of the page.
+            press: called with the name of a button that is pressed.
+            allowed: the buttons that have an effect, by the name of the state.
+            names: the buttons to show.
         """
-        self._press, self._allowed = press, allowed
+        self._press = press
+        self._allowed = allowed
         self._state, self._time = "", 0.0
         self._head = gui.add_html("")
         self._buttons = {
@@ -59,10 +64,10 @@ class Controls:
             button.on_click(self._clicked(name))
         self._note = gui.add_html("")
         self._figures = gui.add_html("")
-        self.say("waiting", "for the loop to begin")
+        self.show_state("waiting", "for the loop to begin")
 
-    def say(self, state: str, reason: str) -> None:
-        """Show a state, and why it came; buttons follow."""
+    def show_state(self, state: str, reason: str) -> None:
+        """Show a state and the reason for it; enable the buttons that it allows."""
         self._state = state
         colour = _COLOURS.get(state, _OTHER)
         self._head.content = (
@@ -74,8 +79,18 @@ class Controls:
         for name, button in self._buttons.items():
             button.disabled = name not in self._allowed.get(state, ())
 
-    def count(self, time: float, missed: float, late: float, cost: float, age: float) -> None:
-        """Show the figures of a tick: times in s."""
+    def show_figures(
+        self, time: float, missed: float, late: float, cost: float, age: float
+    ) -> None:
+        """Show the figures of a tick.
+
+        Args:
+            time: of the platform, s.
+            missed: deadlines missed up to now.
+            late: from the deadline to the tick's beginning, s.
+            cost: of the tick, s.
+            age: of the input, s.
+        """
         self._time = time
         rows = (
             ("time", f"{time:.1f} s"),
@@ -91,10 +106,7 @@ class Controls:
         return lambda _: self.click(name)
 
     def click(self, name: str) -> None:
-        """As if the button had been pressed.
-
-        One that has been switched off since is told of and goes no further.
-        """
+        """Press a button, or show that the present state does not allow it."""
         if name in self._allowed.get(self._state, ()):
             self._press(name)
             note = f"{name} asked at {self._time:.1f} s"

@@ -1,6 +1,6 @@
-"""The specific force as an arrow at the head, in cabin axes.
+"""Draws the specific force as an arrow at the head, in cabin axes.
 
-What pushes on the seat, so that 1 g upright points up.
+It is the force of the seat on the rider, so that 1 g upright points up.
 """
 
 from collections.abc import Sequence
@@ -26,32 +26,35 @@ _STEP = 0.1  # g; of the number at the arrow's head
 
 
 class ForceScale:
-    """How long a force is drawn, so that the largest of a flight stays in the picture."""
+    """The scale of forces in the picture, in which the largest of a flight still fits.
+
+    largest: force (g) of the longest arrow.
+    unit: length of 1 g, m.
+    """
 
     def __init__(self, radius: float, largest: float = USUAL) -> None:
-        """For a sphere of `radius` (m) and forces up to `largest` (g).
+        """Scale forces up to `largest` (g) in a sphere of `radius` (m).
 
-        What is larger is drawn as long as that.
+        Larger ones are drawn with the same length.
         """
         self.largest = min(max(largest, _REACH / _MOST_UNIT), _MOST)
         self.unit = _REACH * radius / self.largest
-        """Length of 1 g, m."""
 
     def length(self, size: float) -> float:
-        """Length of a force of `size` g, m."""
+        """Return the length (m) of a force of `size` g."""
         return self.unit * min(size, self.largest)
 
     @property
-    def told(self) -> str:
+    def description(self) -> str:
         """The scale in words."""
         longest = f"at most {self.length(self.largest):.2f} m ({self.largest:.1f} g)"
         return f"arrows are specific force: 1 g = {self.unit:.2f} m, {longest}"
 
 
 def largest_g(*forces: Array) -> float:
-    """The largest force, g, of rows of forces (m/s^2, (n, 3)).
+    """Return the largest force (g) among rows of forces (n, 3), m/s^2.
 
-    Rows that are not finite do not count, 0 for none.
+    Rows that are not finite do not count; without any other it is 0.
     """
     sizes = [np.linalg.norm(rows[np.isfinite(rows).all(axis=1)], axis=1) for rows in forces]
     return (
@@ -60,7 +63,7 @@ def largest_g(*forces: Array) -> float:
 
 
 class ForceArrow:
-    """An arrow whose length is the force; its head tells whose it is, and how many g."""
+    """An arrow whose length is the force; its label has a name and the number of g."""
 
     def __init__(
         self,
@@ -72,11 +75,8 @@ class ForceArrow:
         name: str,
         anchor: Literal["bottom-left", "bottom-right"],
     ) -> None:
-        """Drawn in the frame above `path`, `thick` m.
-
-        `anchor`: which corner of the label is at the head.
-        """
-        self._drawn, self._name, self._said = drawn, name, ""
+        """Draw the arrow in the frame above `path`, `thick` m; `anchor` is the label's corner."""
+        self._drawn, self._name, self._text = drawn, name, ""
         up = (0.0, 0.0, 1.0)
         self._frame = scene.add_frame(path, show_axes=False)
         vertices, faces = rod((0.0, 0.0, 0.0), up, thick)
@@ -103,6 +103,6 @@ class ForceArrow:
         self._say(f"{self._name} {_STEP * round(size / _STEP):.1f} g")
 
     def _say(self, text: str) -> None:
-        """Change the label if it says something else: every change is a message to the page."""
-        if text != self._said:
-            self._label.text = self._said = text
+        """Change the label if its text is another one: every change is a message to the page."""
+        if text != self._text:
+            self._label.text = self._text = text

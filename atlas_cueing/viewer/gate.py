@@ -1,11 +1,14 @@
 """A gate for viser's server, which has none.
 
-What web pages of other hosts ask for, and too much of anything, never gets in.
-
-Browsers let any page of the web connect to any port of this machine, but tell where the page is
-from (Origin; RFC 6455, 10.2) and under which name it found the server (Host: not ours when a name
-server was made to point here). Both are looked at before the handshake: later, messages of a client
+It keeps out requests of web pages of other hosts, and too much of anything. Browsers let any page
+of the web connect to any port of this machine, but tell where the page is from (Origin; RFC 6455,
+10.2) and under which name it found the server (Host: another name than this machine's when a name
+server was made to point here). Both are checked before the handshake: later, messages of a client
 that is being shut out would still be read.
+
+The gate is inside viser's server rather than a proxy as `telemetry.OriginGate`: the largest message
+of a client (viser allows 50 MB), the replies to bad requests and the log of the server are options
+that only the server itself can have.
 """
 
 import asyncio
@@ -13,18 +16,18 @@ import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
-from urllib.parse import urlsplit
+
+from ..telemetry.origin_gate import is_our_host, is_our_origin
 
 HOST = "127.0.0.1"
 MOST_CLIENTS = 16  # pages at a time; each gets everything, and keeps 2 MB here
-# of any kind, those that have not yet said what they want among them; a page opens a few
+# of any kind, also those that have not sent their request yet; a page opens a few
 MOST_CONNECTIONS = 64
 PATIENCE_S = 5.0  # s that a handshake may take
 LARGEST_MESSAGE = 65536  # bytes from a page; a button or a camera takes some hundred
-_OURS = frozenset((HOST, "localhost", "::1"))
 
 _log = logging.getLogger(__name__)
-_log.addHandler(logging.NullHandler())  # one client's nonsense is nobody's news
+_log.addHandler(logging.NullHandler())  # nonsense of a client is not shown to the user
 
 # (connection, request) to a response, or None to go on with the handshake
 Answer = Callable[[Any, Any], Any]
@@ -32,9 +35,9 @@ Answer = Callable[[Any, Any], Any]
 
 @contextmanager
 def gated() -> Iterator[None]:
-    """Servers that viser opens in here have the gate.
+    """Give the servers that viser opens inside the gate.
 
-    It passes no options on to them, so that theirs are replaced.
+    viser passes no options on to them, so that the function that opens them is replaced.
     """
     from websockets.asyncio import server
 
@@ -47,7 +50,7 @@ def gated() -> Iterator[None]:
 
 
 def silence(loop: asyncio.AbstractEventLoop | None) -> None:
-    """Let tasks of viser's loop that fail on a client's nonsense do so without a traceback on stderr."""
+    """Keep tracebacks off stderr when tasks of viser's loop fail on nonsense of a client."""
     assert loop is not None, "viser has started"  # noqa: S101
     loop.set_exception_handler(
         lambda _, context: _log.debug("%s", context["message"], exc_info=context.get("exception"))
@@ -59,7 +62,7 @@ def _with_gate(serve: Callable[..., Any], connection: type[Any]) -> Callable[...
         """A connection for which another may have to go."""
 
         def connection_made(self, transport: asyncio.BaseTransport) -> None:
-            """Take it up; when there are too many, the one goes that has said nothing for longest."""
+            """Accept it; of too many, close the one that has sent no request for longest."""
             super().connection_made(transport)
             held = [each for each in self.server.handlers if not each.transport.is_closing()]
             if len(held) > MOST_CONNECTIONS:
@@ -68,7 +71,7 @@ def _with_gate(serve: Callable[..., Any], connection: type[Any]) -> Callable[...
     def gated_serve(
         handler: Any, host: Any, port: Any, *, process_request: Answer, **options: Any
     ) -> Any:
-        """As `serve`, with the gate before every handshake and bounds on what a client may send."""
+        """Serve with the gate before every handshake and bounds on what a client may send."""
         ours = {
             "max_size": LARGEST_MESSAGE,
             "open_timeout": PATIENCE_S,
@@ -84,7 +87,7 @@ def _with_gate(serve: Callable[..., Any], connection: type[Any]) -> Callable[...
 
 def _admitting(process: Answer) -> Answer:
     def admit(connection: Any, request: Any) -> Any:
-        """A refusal, or whatever the server itself answers."""
+        """Return a refusal, or the server's own answer."""
         if not admits(request.headers.get_all("Host"), request.headers.get_all("Origin")):
             return connection.respond(403, "not for pages of other hosts\n")
         if "Upgrade" in request.headers and len(connection.server.connections) >= MOST_CLIENTS:
@@ -98,17 +101,8 @@ def _admitting(process: Answer) -> Answer:
 
 
 def admits(hosts: list[str], origins: list[str]) -> bool:
-    """Whether all Host and Origin headers of a request name this machine.
+    """Return whether all Host and Origin headers of a request name this machine.
 
     Programs send no Origin.
     """
-    return all(_is_ours(f"//{host}") for host in hosts) and all(
-        _is_ours(origin) for origin in origins
-    )
-
-
-def _is_ours(url: str) -> bool:
-    try:
-        return urlsplit(url).hostname in _OURS
-    except ValueError:  # no URL at all
-        return False
+    return all(map(is_our_host, hosts)) and all(map(is_our_origin, origins))

@@ -1,4 +1,4 @@
-"""What a live page keeps of a run: the last tick, and the last seconds thinned for its plots."""
+"""The history that a live page keeps: the last tick, and the last seconds thinned for plots."""
 
 from collections import deque
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ STEP = 0.05  # s; from point to point
 
 
 def columns(topic: str, first: str, count: int = 1) -> slice:
-    """Where `count` fields of a topic stand in a row of `signals.live_row`, from the field `first` on."""
+    """Return the columns of `count` fields of a topic in `signals.live_row`, from `first` on."""
     start = 0
     for each in LIVE_TOPICS:
         if each.name == topic:
@@ -38,7 +38,7 @@ _TIMING = columns("/timing", "lateness_s", 5)
 
 
 class History:
-    """The thinned past.
+    """The thinned ticks of the last SPAN seconds.
 
     A point is the last tick of its STEP, with the largest lateness and cost of all.
     """
@@ -54,10 +54,9 @@ class History:
         if not len(rows):
             return
         new = np.asarray(rows, dtype=np.float64).reshape(-1, LIVE_ROW)
-        course = new if self._last is None else np.vstack([self._last, new])
-        self._angle = (self._angle + wheel_angles(course[:, _TIME], course[:, _WHEELS])[-1]) % (
-            2.0 * np.pi
-        )
+        ticks = new if self._last is None else np.vstack([self._last, new])
+        turned = wheel_angles(ticks[:, _TIME], ticks[:, _WHEELS])[-1]
+        self._angle = (self._angle + turned) % (2.0 * np.pi)
         slots = np.floor(np.nan_to_num(new[:, _ELAPSED]) / STEP)
         for block in np.split(new, np.flatnonzero(np.diff(slots)) + 1):
             self._keep(block)
@@ -70,25 +69,25 @@ class History:
 
     @property
     def time(self) -> float:
-        """Of the last tick, s."""
+        """Time of the last tick, s."""
         return 0.0 if self._last is None else float(self._last[_TIME])
 
     @property
     def timing(self) -> tuple[float, float, float, float, int]:
-        """Lateness, cost and input age (s), missed deadlines and place of the state of the last tick."""
+        """Of the last tick: lateness, cost, input age (s), missed deadlines, place of the state."""
         lateness, cost, age, missed, state = (
             (0.0,) * 5 if self._last is None else self._last[_TIMING].tolist()
         )
         return lateness, cost, age, missed, int(state)
 
     def pose(self) -> Pose:
-        """Of the last tick."""
+        """Return the pose of the last tick."""
         last = np.zeros(LIVE_ROW) if self._last is None else self._last
         felt = felt_columns(last[None], self._head_S)[0]
         return Pose(last[_Q], last[_P], self._angle, last[_PILOT_F], felt[1:4])
 
     def traces(self) -> Traces:
-        """The last SPAN seconds over the loop's own time."""
+        """Return the last SPAN seconds over the loop's own time."""
         points = np.array(self._points).reshape(-1, LIVE_ROW)
         felt = felt_columns(points, self._head_S)
         force, rate = felt[:, 1:4], felt[:, 4:7]

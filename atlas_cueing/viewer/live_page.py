@@ -1,7 +1,4 @@
-"""The page of a live run, in a process of its own.
-
-Whatever a browser does, the loop's process has no part in it.
-"""
+"""The page of a live run, in a process of its own: no browser can disturb the loop's process."""
 
 from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import TYPE_CHECKING
@@ -22,7 +19,7 @@ _PLOT_EVERY = 5  # refreshes
 
 
 class LivePage:
-    """Scene, state, buttons and plots of a live run."""
+    """The page of a live run: scene, state, buttons and plots."""
 
     def __init__(
         self,
@@ -45,8 +42,8 @@ class LivePage:
         self._state, self._reason, self._refreshes = "", "", 0
 
     def take(self, messages: Iterable[tuple[int, bytes]]) -> None:
-        """Note ring messages (kind, content); nothing is drawn yet but a change of state."""
-        rows, said = [], (self._state, self._reason)
+        """Keep ring messages (kind, content); nothing is drawn yet but a change of state."""
+        rows, shown = [], (self._state, self._reason)
         for kind, data in messages:
             if kind == TICK:
                 rows.append(numbers(data))
@@ -54,31 +51,29 @@ class LivePage:
                 self._state, self._reason = status(data).state, status(data).reason
             elif kind == END:
                 end = status(data)
-                self._state, self._reason = (
-                    ENDED,
-                    (f"{end.state}: {end.reason}" if end.reason else end.state),
-                )
+                self._state = ENDED
+                self._reason = f"{end.state}: {end.reason}" if end.reason else end.state
         self._history.add(rows)
         if rows and self._state != ENDED:
             self._follow_ticks()
-        if (self._state, self._reason) != said:
-            self._controls.say(self._state, self._reason)
+        if (self._state, self._reason) != shown:
+            self._controls.show_state(self._state, self._reason)
 
     def refresh(self) -> None:
-        """Draw the last tick; the plots not every time."""
+        """Draw the last tick, and the plots every few times."""
         if self._history.empty:
             return
         pose = self._history.pose()
         if pose.finite:
             self._scene.show(pose)
         late, cost, age, missed, _ = self._history.timing
-        self._controls.count(self._history.time, missed, late, cost, age)
+        self._controls.show_figures(self._history.time, missed, late, cost, age)
         if self._refreshes % _PLOT_EVERY == 0:
             self._plots.show(self._history.traces())
         self._refreshes += 1
 
     def _follow_ticks(self) -> None:
-        """Believe the ticks when the message of a change has been lost."""
+        """Take the state from the ticks when the message of a change has been lost."""
         place = self._history.timing[-1]
         if 0 <= place < len(LIVE_STATES) and LIVE_STATES[place] != self._state:
             self._state, self._reason = LIVE_STATES[place], ""

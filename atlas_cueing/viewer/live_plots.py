@@ -1,4 +1,4 @@
-"""Plots beside the scene: vehicle against rider, wheels and stage against their limits, and how the loop keeps its time."""
+"""Plots beside the scene: vehicle and rider, wheels and stage with limits, timing of the loop."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -27,7 +27,7 @@ _GREY = {
 class Traces:
     """Columns (n,) and (n, k) to plot: s, m/s^2, rad/s, m.
 
-    `timing` is lateness and cost in s, None for a log.
+    timing: lateness and cost, s; None for a log.
     """
 
     time: Array
@@ -41,10 +41,10 @@ class Traces:
 
 
 class Plots:
-    """All of them, one below the other."""
+    """All plots of a page, one below the other."""
 
     def __init__(self, gui: "GuiApi", platform: Platform, *, timing: bool) -> None:
-        """`timing` says whether there is a loop to be timed."""
+        """Add the plots to a page; `timing` is whether there is a loop to be timed."""
         self._speed = np.array(platform.wheel_limit_values().speed)
         self._travel = np.array(platform.stage_limit_values().travel)
         compared = [*_lines("xyz", ""), *_lines("xyz", " pilot", dash=(4, 3), width=1.0)]
@@ -64,7 +64,7 @@ class Plots:
         )
 
     def show(self, traces: Traces) -> None:
-        """Replace what is drawn."""
+        """Draw `traces` in the place of those before."""
         limits = np.full((len(traces.time), 2), 100.0) * (1.0, -1.0)
         _show(self._force, traces.time, traces.felt_f, traces.pilot_f)
         _show(self._rate, traces.time, np.degrees(traces.felt_w), np.degrees(traces.pilot_w))

@@ -1,4 +1,4 @@
-"""A log in the live page's scene, with a play bar."""
+"""Shows a log in the live page's scene, with a play bar."""
 
 import time
 from collections.abc import Callable
@@ -26,14 +26,18 @@ _TIMES = dict(zip(_SPEEDS, (0.25, 0.5, 1.0, 2.0, 4.0), strict=True))
 
 
 class PlayHead:
-    """Where the player is between `start` and `end` (s)."""
+    """The position of the player between `start` and `end` (s).
+
+    at: present position, s.
+    playing: whether it moves; `speed` is in s of the flight a second.
+    """
 
     def __init__(self, start: float, end: float) -> None:
         self.start, self.end, self.at = start, end, start
         self.playing, self.speed = True, 1.0
 
     def advance(self, elapsed: float) -> None:
-        """Go on by `elapsed` seconds of the clock on the wall; stop at the end."""
+        """Go on by `elapsed` s of real time; stop at the end."""
         if self.playing:
             self.at = min(self.end, self.at + self.speed * elapsed)
             self.playing = self.at < self.end
@@ -45,7 +49,7 @@ class PlayHead:
         self.playing = not self.playing
 
     def run_at(self, speed: float) -> None:
-        """Seconds of the flight in one second."""
+        """Set the speed, in seconds of the flight a second."""
         self.speed = speed
 
     def seek(self, at: float) -> None:
@@ -55,7 +59,7 @@ class PlayHead:
 
 
 class PlayPage:
-    """Scene, play bar and plots of a log."""
+    """The page of a log: scene, play bar and plots."""
 
     def __init__(self, server: "ViserServer", platform: Platform, flight: RunColumns) -> None:
         self._flight, self._motion = flight, RecordedMotion(flight)
@@ -90,7 +94,7 @@ class PlayPage:
         self._refreshes = 0
 
     def refresh(self, elapsed: float) -> None:
-        """Go on by `elapsed` s and draw."""
+        """Go on by `elapsed` s of real time and draw."""
         before = self.head.at
         self.head.advance(elapsed)
         label = "Pause" if self.head.playing else "Play"
@@ -105,7 +109,7 @@ class PlayPage:
         self._refreshes += 1
 
     def _window(self) -> Traces:
-        """The SPAN seconds up to now."""
+        """Return the SPAN seconds up to the present position."""
         time = self._flight.time[self._points]
         ticks = self._points[(time > self.head.at - SPAN) & (time <= self.head.at)]
         f = self._flight
@@ -125,7 +129,7 @@ class PlayPage:
 
 
 def thinned(time: np.ndarray) -> np.ndarray:
-    """Ticks to plot, about STEP apart."""
+    """Return the ticks to plot, about STEP apart."""
     count = int((time[-1] - time[0]) / STEP) + 1
     return np.unique(
         np.searchsorted(time, time[0] + STEP * np.arange(count)).clip(0, len(time) - 1)
@@ -135,23 +139,30 @@ def thinned(time: np.ndarray) -> np.ndarray:
 def play(
     platform: Platform,
     flight: RunColumns,
-    told: Callable[[str], object],
+    report_url: Callable[[str], object],
     *,
     port: int = 0,
     title: str | None = None,
     go_on: Callable[[], bool] = lambda: True,
 ) -> None:
-    """Serve a flight at `port` (0 for any free one) until Ctrl-C, or until `go_on` says no.
+    """Serve a flight until Ctrl-C.
 
-    `told` is given the page's address. Raises InputError when viser is missing, the port is in use,
-    or there is no motion to show.
+    Args:
+        platform: to draw.
+        flight: columns of the log.
+        report_url: called with the page's address.
+        port: of 127.0.0.1; 0 takes a free one.
+        title: of the page.
+        go_on: checked between two refreshes; False ends it, too.
+
+    Raises InputError when viser is missing, the port is in use, or there is no motion to show.
     """
     check_viser("live")
     RecordedMotion(flight)
     server = open_server(port, title)
     try:
         page = PlayPage(server, platform, flight)
-        told(url_of(server))
+        report_url(url_of(server))
         last = time.monotonic()
         while go_on():
             now = time.monotonic()

@@ -1,4 +1,4 @@
-"""A flight out of a log, moment by moment."""
+"""The motion of a recorded flight, tick by tick."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from .shapes import Array
 class RecordedMotion:
     """Poses of a flight.
 
-    Raises InputError when it has no ticks, or numbers in its motion that are none.
+    Raises InputError when it has no ticks, or numbers in its motion that are not finite.
     """
 
     def __init__(self, flight: RunColumns) -> None:
@@ -24,16 +24,16 @@ class RecordedMotion:
         self._angle = wheel_angles(flight.time, flight.wheel_speed)
 
     def pose(self, tick: int) -> Pose:
-        """The platform at a tick; a force that is no number is not drawn."""
+        """Return the pose at a tick; a force that is not a number counts 0."""
         f = self._flight
         forces = (np.nan_to_num(f.vehicle_f_B[tick]), np.nan_to_num(f.felt_f[tick]))
         return Pose(f.motion_q_WS[tick], f.motion_p_W[tick], self._angle[tick], *forces)
 
 
 def wheel_angles(time: Array, speed: Array) -> Array:
-    """How far each wheel has turned since the first tick, rad, (n, 3), by trapezoids.
+    """Return the angle of each wheel since the first tick, (n, 3), rad, by trapezoids.
 
-    One that is no number counts 0.
+    `time` (n,) is in s, `speed` (n, 3) in rad/s; one that is not a number counts 0.
     """
     steps = 0.5 * np.diff(time)[:, None] * (speed[:-1] + speed[1:])
     return np.concatenate([np.zeros((1, 3)), np.cumsum(np.nan_to_num(steps), axis=0)])

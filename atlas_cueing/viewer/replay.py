@@ -1,7 +1,7 @@
-"""The platform in motion: one self-contained HTML file with a play bar.
+"""Writes the platform in motion as one self-contained HTML file with a play bar.
 
-viser draws what its server would send to a browser; the server is bound to the loopback, nobody
-calls it, and it is stopped as soon as the file is written.
+viser draws what its server would send to a browser; the server is bound to the loopback, it has no
+clients, and it is stopped as soon as the file is written.
 """
 
 from pathlib import Path
@@ -29,7 +29,7 @@ MOST_FRAMES = 9000  # of a long flight, which gets fewer a second
 def write_replay(platform: Platform, flight: RunColumns, file: str | Path) -> None:
     """Write the flight as a 3D replay into `file`.
 
-    Sphere with its cockpit, wheels, stage in its travel.
+    It shows the sphere with its cockpit, the wheels, and the stage in its travel.
 
     Raises InputError when viser is not installed or there is no motion to show, OutputError when
     the file cannot be written.
@@ -49,7 +49,7 @@ def write_replay(platform: Platform, flight: RunColumns, file: str | Path) -> No
 
 
 def frames(time: Array) -> tuple[Array, float]:
-    """Ticks to show, and the time from one frame to the next (s)."""
+    """Return the ticks to show, and the time from one frame to the next (s)."""
     duration = float(time[-1] - time[0])
     count = max(1, min(round(duration * RATE_HZ), MOST_FRAMES))
     shown = np.searchsorted(time, np.linspace(time[0], time[-1], count + 1)).clip(0, len(time) - 1)
@@ -59,7 +59,7 @@ def frames(time: Array) -> tuple[Array, float]:
 def _replay(
     server: "ViserServer", scene: Scene, motion: RecordedMotion, shown: Array, pause: float
 ) -> str:
-    """Move what is drawn, frame by frame."""
+    """Return the page of a scene that is moved frame by frame."""
     recording = server.get_scene_serializer()
     for tick in shown:
         scene.show(motion.pose(int(tick)))

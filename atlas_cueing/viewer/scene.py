@@ -1,7 +1,4 @@
-"""The platform drawn in space: sphere with its cockpit, wheels, stage.
-
-The same for a live run, a log and a replay file.
-"""
+"""Draws the platform in space, for a live run, a log and a replay file."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -36,10 +33,12 @@ KEY = _KEY.format(FELT, "specific force on the rider") + _KEY.format(
 
 @dataclass(frozen=True, slots=True)
 class Pose:
-    """One moment.
+    """What is drawn of one tick.
 
-    Orientation q_WS, stage position (m, W), angle of each wheel (rad), specific force of pilot and
-    rider (m/s^2, FRD).
+    q_WS: orientation of the sphere.
+    p_W: position of the stage in W, m.
+    wheel_angle: of each wheel, rad.
+    vehicle_f, felt_f: specific force of pilot and rider, m/s^2, FRD.
     """
 
     q_WS: Sequence[float] | Array
@@ -58,10 +57,13 @@ class Pose:
 
 
 class Scene:
-    """The platform in its page; wheel and stage sizes are the platform's, what they stand on is made up."""
+    """The platform in a page.
+
+    The sizes of sphere, wheels and travel are the platform's, those of other parts are made up.
+    """
 
     def __init__(self, server: "ViserServer", platform: Platform, largest: float = USUAL) -> None:
-        """Draw the platform at rest; `largest`: the largest force (g) of pilot and rider that its arrows shall show."""
+        """Draw the platform at rest; its arrows show forces up to `largest` (g)."""
         scene, radius = server.scene, platform.sphere.radius_m
         scene.set_up_direction("+z")
         scene.set_background_image(_background(), format="png")
@@ -84,7 +86,7 @@ class Scene:
             scene, f"{head}/felt", drawn, 0.03 * radius, FELT, "rider", "bottom-left"
         )
         place = (_SCALE_AT[0] * radius, _SCALE_AT[1] * radius, self._stage.floor)
-        scene.add_label("/scale", drawn.told, position=place, anchor="center-center")
+        scene.add_label("/scale", drawn.description, position=place, anchor="center-center")
         camera, middle = server.initial_camera, 0.5 * self._stage.floor
         far = 1.08 * max(2.2 * radius - middle, 3.0 * radius)
         camera.position = (0.95 * far, 1.3 * far, 0.42 * far)
@@ -102,7 +104,7 @@ class Scene:
 
 
 def _background() -> np.ndarray:
-    """A gradient, from the zenith down."""
+    """Return a gradient, from the zenith down."""
     share = np.linspace(0.0, 1.0, 128)[:, None, None]
     colours = (1.0 - share) * np.array(_SKY) + share * np.array(_HAZE)
     return np.broadcast_to(colours, (128, 8, 3)).astype(np.uint8)

@@ -1,8 +1,6 @@
-"""A viser server that only this machine can talk to.
+"""Opens viser servers that only this machine can reach: the only place that starts viser.
 
-Bound to the loopback, silent, and deaf to pages of other hosts.
-
-The only place that starts viser.
+They are bound to the loopback, print nothing, and refuse pages of other hosts.
 """
 
 from contextlib import redirect_stdout
@@ -22,7 +20,7 @@ def check_viser(extra: str) -> None:
     """Raise MissingExtraError when viser, which comes with `extra`, is not installed."""
     try:
         missing = find_spec("viser") is None
-    except ValueError:  # what find_spec says of a module that was switched off
+    except ValueError:  # from find_spec for a module that was switched off
         missing = True
     if missing:
         raise MissingExtraError("a 3D view", "viser", extra)
@@ -48,19 +46,19 @@ def open_server(port: int, title: str | None = None) -> "ViserServer":
 
 def close_server(server: "ViserServer") -> None:
     """Stop serving."""
-    with redirect_stdout(StringIO()):  # word of the end
+    with redirect_stdout(StringIO()):  # a message of the end
         server.stop()
 
 
 def url_of(server: "ViserServer") -> str:
-    """Where the page is."""
+    """Return the address of the page."""
     return f"http://{HOST}:{server.get_port()}"
 
 
 def _close_tunnel(server: "ViserServer") -> None:
-    """Nobody may ask for viser's public address."""
+    """Refuse requests for a public address by way of viser's own host."""
 
     def refuse(verbose: bool = True) -> None:
-        """No address; called as viser does."""
+        """Return no address; called as viser does."""
 
     server.request_share_url = refuse  # type: ignore[method-assign]

@@ -1,7 +1,4 @@
-"""Triangles for what viser has no shape of.
-
-Vertices (n, 3) in m and faces (m, 3) of their numbers.
-"""
+"""Makes meshes that viser lacks: vertices (n, 3) in m and faces (m, 3) of their numbers."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeAlias
@@ -20,7 +17,7 @@ _FINE = np.radians(5.0)  # most that one facet of a sphere spans
 
 
 def patch(radius: float, azimuth: tuple[float, float], elevation: tuple[float, float]) -> Mesh:
-    """Part of a sphere between two azimuths (from x to y) and two elevations (towards z), all in rad."""
+    """Return the part of a sphere between two azimuths (from x to y) and elevations, rad."""
     a = np.linspace(*azimuth, max(2, int(np.ceil((azimuth[1] - azimuth[0]) / _FINE)) + 1))
     e = np.linspace(*elevation, max(2, int(np.ceil((elevation[1] - elevation[0]) / _FINE)) + 1))
     ea, aa = (grid.ravel() for grid in np.meshgrid(e, a, indexing="ij"))
@@ -36,7 +33,7 @@ def rod(
     tip: float = 1.0,
     sides: int = 16,
 ) -> Mesh:
-    """A closed rod from start to end; at the end it has `tip` times its radius, 0 for a cone."""
+    """Return a closed rod from start to end, with `tip` times its radius there (0: a cone)."""
     start, end = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
     along = (end - start) / np.linalg.norm(end - start)
     across = np.cross(along, (1.0, 0.0, 0.0) if abs(along[0]) < 0.7 else (0.0, 1.0, 0.0))
@@ -58,13 +55,13 @@ def rod(
 
 
 def spindle(centre: Array, axis: Array, length: float, radius: float) -> Mesh:
-    """A barrel with round flanks: an omni wheel's roller."""
+    """Return a barrel with round flanks: an omni wheel's roller."""
     ends = [centre + s * length * axis for s in (-0.5, 0.0, 0.5)]
     return merged([rod(ends[1], ends[0], radius, 0.55, 8), rod(ends[1], ends[2], radius, 0.55, 8)])
 
 
 def merged(meshes: Sequence[Mesh]) -> Mesh:
-    """Many meshes as one."""
+    """Return many meshes as one."""
     starts = np.cumsum([0] + [len(vertices) for vertices, _ in meshes])
     faces = np.vstack(
         [faces + start for (_, faces), start in zip(meshes, starts[:-1], strict=True)]
@@ -75,7 +72,7 @@ def merged(meshes: Sequence[Mesh]) -> Mesh:
 def circle(
     radius: float, first: Sequence[float], second: Sequence[float], count: int = 96
 ) -> Array:
-    """A circle through two directions at right angles, as segments (count, 2, 3)."""
+    """Return a circle through two directions at right angles, as segments (count, 2, 3)."""
     turn = np.linspace(0.0, 2.0 * np.pi, count + 1)[:, None]
     points = radius * (np.cos(turn) * np.asarray(first) + np.sin(turn) * np.asarray(second))
     return np.stack([points[:-1], points[1:]], axis=1)
@@ -88,7 +85,10 @@ def draw(scene: "SceneApi", path: str, mesh: Mesh, colour: Colour) -> None:
 
 
 def _grid(rows: int, columns: int) -> NDArray[np.uint32]:
-    """Two triangles for each cell of a grid of vertices, counterclockwise where columns run to the right and rows up."""
+    """Return two triangles for each cell of a grid of vertices.
+
+    They are counterclockwise where columns run to the right and rows up.
+    """
     first = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
     lower = np.column_stack([first, first + 1, first + columns + 1])
     upper = np.column_stack([first, first + columns + 1, first + columns])

@@ -1,4 +1,4 @@
-"""What carries the sphere: floor, rails along x, a bridge with rails along y, a telescope along z.
+"""Draws the stage: floor, rails along x, a bridge with rails along y, a telescope along z.
 
 Only the travel is the platform's; sizes are made up to fit it.
 """
@@ -54,7 +54,7 @@ class Stage:
 
 
 def draw_stage(scene: "SceneApi", platform: Platform) -> Stage:
-    """Draw it with the sphere's centre at the origin of W.
+    """Draw the stage with the sphere's centre at the origin of W.
 
     The frame `path` of the result carries sphere and wheels.
     """
@@ -76,9 +76,9 @@ def draw_stage(scene: "SceneApi", platform: Platform) -> Stage:
 
 
 def _draw_telescope(scene: "SceneApi", plate: float, travel: float, radius: float) -> float:
-    """Two tubes that slide by half the travel each out of a sleeve.
+    """Draw two tubes that slide by half the travel each out of a sleeve.
 
-    The height (m) of the deck that the sleeve stands on.
+    Return the height (m) of the deck that the sleeve stands on.
     """
     tube, sunk = 1.05 * travel, 0.5 * _BEAM * radius  # into the plate
     for name, path, top, length, share, colour in (
@@ -96,7 +96,7 @@ def _draw_telescope(scene: "SceneApi", plate: float, travel: float, radius: floa
 
 
 def _draw_rails(scene: "SceneApi", deck: float, travel: Vec3, radius: float) -> None:
-    """From the deck down: sled, two beams along y that are the bridge, two rails along x."""
+    """Draw from the deck down: sled, two beams along y that are the bridge, rails along x."""
     thick, half = 2.0 * _BEAM * radius, 0.62 * radius
     reach, side = travel[0] + half + 0.25 * radius, travel[1] + half + 0.25 * radius
     sled = (2.6 * half, 2.0 * half, thick)
@@ -123,7 +123,7 @@ def _draw_rails(scene: "SceneApi", deck: float, travel: Vec3, radius: float) -> 
 
 
 def _draw_floor(scene: "SceneApi", radius: float, height: float) -> None:
-    """A floor that takes the shadow."""
+    """Draw a floor that takes the shadow."""
     scene.add_grid(
         "/floor",
         width=14.0 * radius,
@@ -140,7 +140,7 @@ def _draw_floor(scene: "SceneApi", radius: float, height: float) -> None:
 
 
 def _arms(platform: Platform, plate: float, thick: float) -> Mesh:
-    """From the plate round the sphere to each wheel's motor."""
+    """Draw the arms from the plate round the sphere to each wheel's motor."""
     rods, radius, hub = [], platform.sphere.radius_m, np.array((0.0, 0.0, plate))
     for table in platform.wheel:
         wheel = table.wheel()
@@ -160,7 +160,7 @@ def _arms(platform: Platform, plate: float, thick: float) -> Mesh:
 
 
 def _draw_travel(scene: "SceneApi", travel: Array, radius: float) -> None:
-    """The box that the sphere's centre may move in."""
+    """Draw the box that the sphere's centre may move in."""
     corners = np.array([(a, b, c) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)]) * travel
     edges = [
         (i, j)

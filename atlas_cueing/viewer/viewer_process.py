@@ -1,31 +1,35 @@
-"""Starts and ends the process that shows a live run."""
+"""The process that shows a live run."""
 
 import os
-import signal
 import sys
 import time
 from collections.abc import Callable, Collection, Mapping
-from multiprocessing import get_context
+from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 from types import TracebackType
+from typing import TYPE_CHECKING, Self
 
 from ..errors import AtlasError, InputError
 from ..scenario import Platform
-from ..telemetry import Ring, RingReader
+from ..telemetry import ChildProcess, Left, Ring, RingReader
 from .gate import HOST
-from .server import check_viser
+from .server import check_viser, open_server
+
+if TYPE_CHECKING:
+    from .live_page import LivePage
 
 _REFRESH = 0.04  # s
 _NICENESS = 10  # the loop comes first
 _PATIENCE = 60.0  # s; viser starts in 0.3 s on an idle machine
+_CLOSING = 1.0  # s that the process may take to end
 
 
 class ViewerProcess:
-    """A page that shows what comes through `ring` and gives its button presses to `press`.
+    """A page that shows what comes through a ring, and takes the operator's buttons.
 
-    To be started before the loop: by `fork`, which shares the ring and what `press` writes to. It
-    never holds the writer up, for it only reads. After the ring's END the page stays; the process
-    ends with `close`, or when this process does.
+    It has to be started before the loop: by `fork`, which shares the ring and what `press` writes
+    to. It never holds the writer up, for it only reads. After the ring's END the page stays; the
+    process ends with `close`, or when this process does.
     """
 
     def __init__(
@@ -38,21 +42,28 @@ class ViewerProcess:
         port: int = 0,
         title: str | None = None,
     ) -> None:
-        """Start to serve at `port`, 0 for any free one.
+        """Fork the process, and wait until it serves.
 
-        `press` is called in the other process with the name of a button that `allowed` has for the
-        present state. Raises InputError when viser is missing or the port is in use.
+        Args:
+            ring: of the live run.
+            platform: to draw.
+            press: called in the new process with the name of a button.
+            allowed: the buttons that can be pressed, by the name of the state.
+            port: of 127.0.0.1; 0 takes a free one.
+            title: of the page.
+
+        Raises InputError when viser is missing or the port is in use.
         """
         check_viser("live")
-        context = get_context("fork")
-        here, there = context.Pipe(duplex=False)
-        self._process = context.Process(
-            target=_show,
-            args=(there, os.getpid(), ring, platform, press, allowed, port, title),
-            name="viewer",
-            daemon=True,
-        )
-        self._process.start()
+
+        def start() -> "tuple[LivePage, int]":
+            from .live_page import LivePage
+
+            server = open_server(port, title)
+            return LivePage(server, platform, press, allowed), server.get_port()
+
+        here, there = Pipe(duplex=False)
+        self._process = ChildProcess(lambda left: _show(start, there, RingReader(ring), left))
         there.close()
         try:
             answer = here.recv() if here.poll(_PATIENCE) else "no answer"
@@ -66,24 +77,20 @@ class ViewerProcess:
         self.url = f"http://{HOST}:{answer}"
 
     @property
-    def pid(self) -> int | None:
-        """Of the process; None before it has one."""
+    def pid(self) -> int:
+        """Process id of the viewer."""
         return self._process.pid
 
     @property
     def alive(self) -> bool:
-        """Whether it still serves."""
-        return self._process.is_alive()
+        """Whether it serves."""
+        return self._process.alive
 
     def close(self) -> None:
-        """End the page."""
-        self._process.terminate()
-        self._process.join(1.0)
-        if self._process.is_alive():  # it has been stopped, or is busy
-            self._process.kill()
-            self._process.join()
+        """End the process, by force if it is stopped or busy."""
+        self._process.finish(_CLOSING)
 
-    def __enter__(self) -> "ViewerProcess":
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(
@@ -96,33 +103,20 @@ class ViewerProcess:
 
 
 def _show(
-    answer: Connection,
-    parent: int,
-    ring: Ring,
-    platform: Platform,
-    press: Callable[[str], object],
-    allowed: Mapping[str, Collection[str]],
-    port: int,
-    title: str | None,
-) -> None:
-    """Serve until the parent is gone."""
-    reader = RingReader(ring)
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the loop, which then closes this
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    start: "Callable[[], tuple[LivePage, int]]", answer: Connection, reader: RingReader, left: Left
+) -> bytes:
+    """Serve until the parent closes the viewer or is gone."""
     os.nice(_NICENESS)
     # For the rest of this process; results of the program go to stdout
     sys.stdout = open(os.devnull, "w")  # noqa: SIM115
-    from .live_page import LivePage
-    from .server import open_server
-
     try:
-        server = open_server(port, title)
-        page = LivePage(server, platform, press, allowed)
-        answer.send(server.get_port())
+        page, port = start()
     except AtlasError as error:
         answer.send(str(error))
-        return
-    while os.getppid() == parent:
+        return b""
+    answer.send(port)
+    while not left():
         page.take(reader.newest())
         page.refresh()
         time.sleep(_REFRESH)
+    return b""

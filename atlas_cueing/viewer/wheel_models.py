@@ -1,4 +1,4 @@
-"""Omni wheels where they touch the sphere, each on its motor, turning as fast as they do."""
+"""Draws the omni wheels where they touch the sphere, each on its motor."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -18,12 +18,12 @@ _WIDTH = 0.55  # of the wheel's radius
 
 
 def draw_wheels(scene: "SceneApi", path: str, platform: Platform) -> list[Wheel]:
-    """Draw the three wheels in the frame `path`, which is the stage's."""
+    """Draw the three wheels in the stage's frame `path`; return each with its attitude at rest."""
     return [_draw_wheel(scene, f"{path}/wheel_{k + 1}", platform, k) for k in range(3)]
 
 
 def _draw_wheel(scene: "SceneApi", path: str, platform: Platform, k: int) -> Wheel:
-    """The rim moves along `drive` where it touches the sphere, so the wheel turns about -(contact x drive)."""
+    """Draw a wheel that turns about -(contact x drive): its rim moves along `drive` there."""
     table = platform.wheel[k]
     wheel, r = table.wheel(), table.radius_m
     axle = -np.cross(wheel.contact, wheel.drive)
@@ -50,7 +50,7 @@ def _hub(r: float) -> Mesh:
 
 
 def _rollers(r: float) -> Mesh:
-    """Barrels round the rim, whose axles lie along it: they let the sphere slip across the wheel's drive."""
+    """Return barrels round the rim with axles along it: the sphere may slip across the drive."""
     around = np.linspace(0.0, 2.0 * np.pi, _ROLLERS, endpoint=False)
     thick = 0.16 * r
     return merged(
@@ -67,7 +67,7 @@ def _rollers(r: float) -> Mesh:
 
 
 def _marks(r: float) -> Mesh:
-    """Three spokes on both faces, one of them thick, so that speed and sense are seen."""
+    """Return three spokes on both faces, one of them thick, which show speed and sense."""
     spokes = []
     for side in (-0.5, 0.5):
         for angle, thick in ((0.0, 0.16), (2.1, 0.07), (4.2, 0.07)):

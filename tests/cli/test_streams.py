@@ -221,7 +221,7 @@ def test_a_hostile_log_commands_nothing(command: Command, evil: Path, tmp_path: 
 def test_the_states_of_a_live_run_command_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     reading, writing = os.pipe()
     monkeypatch.setattr(ring_recorder, "_STDERR", writing)
-    ring_recorder.tell(EVIL)
+    ring_recorder.report_on_stderr(EVIL)
     os.close(writing)
     with os.fdopen(reading) as said:
         (line,) = said.read().splitlines()

@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 from recording.layouts import LAYOUTS, rewritten
 
 from atlas_cueing.errors import AtlasError
-from atlas_cueing.live.control.guard import Command
+from atlas_cueing.live.control.command import Command
 from atlas_cueing.live.output import setpoint
 from atlas_cueing.recording import McapRecorder, read_log
 from atlas_cueing.recording.chunk import EncodedChunk

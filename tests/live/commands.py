@@ -4,7 +4,7 @@ from math import cos, sin
 
 from hypothesis import strategies as st
 
-from atlas_cueing.live.control.guard import Command
+from atlas_cueing.live.control.command import Command
 from atlas_cueing.rotation import ZERO, Vec3
 
 REST = Command(0.0, ZERO, ZERO, ZERO, ZERO, ZERO)

@@ -52,11 +52,11 @@ def broken_source(rig: Rig) -> None:
 
 
 def broken_cueing(rig: Rig) -> None:
-    once(rig, rig.ride._cueing)
+    once(rig, rig.platform._cueing)
 
 
 def broken_smoothing(rig: Rig) -> None:
-    once(rig, rig.ride._pipeline.smoothing)
+    once(rig, rig.platform._pipeline.smoothing)
 
 
 def once(rig: Rig, part: object) -> None:
@@ -73,10 +73,10 @@ def once(rig: Rig, part: object) -> None:
 
 
 def broken_wheels(rig: Rig) -> None:
-    pipeline = rig.ride._pipeline
+    pipeline = rig.platform._pipeline
     replace_wheels(pipeline, Raising())
     rig.tick()
-    replace_wheels(rig.ride._pipeline, pipeline_wheels(rig))
+    replace_wheels(rig.platform._pipeline, pipeline_wheels(rig))
 
 
 class Raising:
@@ -96,7 +96,7 @@ def illegal(corrupt: Callable[[Motion], Motion]) -> Fault:
     """One motion that smoothing should never give."""
 
     def fault(rig: Rig) -> None:
-        smoothing = rig.ride._pipeline.smoothing
+        smoothing = rig.platform._pipeline.smoothing
         step = smoothing.step
         smoothing.step = lambda cue: corrupt(step(cue))  # type: ignore[method-assign]
         rig.tick()

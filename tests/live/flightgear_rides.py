@@ -78,12 +78,12 @@ def every(begin: float, end: float, rate_hz: float = RATE) -> list[float]:
     return [begin + k / rate_hz for k in range(round((end - begin) * rate_hz))]
 
 
-def states(intakes: list[SourceReading]) -> list[VehicleState]:
-    return [intake.vehicle for intake in intakes if intake.vehicle is not None]
+def states(readings: list[SourceReading]) -> list[VehicleState]:
+    return [reading.vehicle for reading in readings if reading.vehicle is not None]
 
 
-def clean(intakes: list[SourceReading]) -> bool:
+def clean(readings: list[SourceReading]) -> bool:
     return not any(
-        intake.dropped or intake.bad_in_a_row or intake.jumped or intake.reason
-        for intake in intakes
+        reading.dropped or reading.bad_in_a_row or reading.jumped or reading.reason
+        for reading in readings
     )

@@ -10,8 +10,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from atlas_cueing.live.control.command import Command
 from atlas_cueing.live.control.controller import LiveController, OperatorInputs
-from atlas_cueing.live.control.guard import Command, Guard
+from atlas_cueing.live.control.guard import Guard
 from atlas_cueing.live.control.platform_controller import PlatformController
 from atlas_cueing.live.control.state_machine import State
 from atlas_cueing.live.input.source import SourceReading
@@ -185,13 +186,15 @@ class Rig:
             Tape(),
             Wanted(),
         )
-        self.ride = PlatformController(
+        self.platform = PlatformController(
             self.pipeline, limits.geometry().sphere_from_wheels, self.stage_limits.travel, dt
         )
         self.guard = Guard(dt, self.wheel_limits, self.stage_limits)
-        wishes = OperatorInputs(self.wanted.edges, lambda: self.wanted.signals, duration, attended)
-        self.conductor = LiveController(self.ride, self.guard, self.source, wishes)
-        self.loop = Loop(dt, self.clock, self.conductor, [self.tape], [self.tape])
+        operator = OperatorInputs(
+            self.wanted.edges, lambda: self.wanted.signals, duration, attended
+        )
+        self.controller = LiveController(self.platform, self.guard, self.source, operator)
+        self.loop = Loop(dt, self.clock, self.controller, [self.tape], [self.tape])
         self.start = self.clock.now() + dt
         self.slot = 0
 
@@ -200,22 +203,21 @@ class Rig:
 
     @property
     def state(self) -> State:
-        return self.conductor.state
+        return self.controller.state
 
     @property
     def motion(self) -> Motion:
-        return self.ride.motion
+        return self.platform.motion
 
     def tick(self, lateness: float = 0.0, missed_in_a_row: int = 0) -> Command:
         """One tick without the loop; keeps what comes of it."""
         self.slot += 1
         elapsed = self.slot * self.dt
-        tick, command = self.conductor.tick(elapsed, elapsed, lateness, missed_in_a_row)
+        tick, command = self.controller.tick(elapsed, elapsed, lateness, missed_in_a_row)
         self.tape.tick(tick, Timing(elapsed, elapsed, lateness, 0.0, 0.0, 0.0, self.state.number))
         self.tape.commands.append(command)
-        for state, reason in self.conductor.changes:
+        for state, reason in self.controller.take_changes():
             self.tape.status(elapsed, state.value, reason)
-        self.conductor.changes.clear()
         return command
 
     def fly(self, seconds: float) -> None:
@@ -243,7 +245,7 @@ class Rig:
             return
         self.press("engage")
         self.until(State.ENGAGING, 0.1)
-        self.until(lambda: self.ride.blending, 2.0)
+        self.until(lambda: self.platform.tracking, 2.0)
         self.fly(2.5)
         if state is State.ENGAGING:
             return

@@ -5,7 +5,7 @@ from random import Random
 
 import pytest
 
-from atlas_cueing.live.control.platform_controller import AT_HOME
+from atlas_cueing.live.control.platform_controller import AT_PARK
 from atlas_cueing.live.control.state_machine import State
 from atlas_cueing.rotation import IDENTITY, geodesic
 
@@ -22,11 +22,11 @@ def test_every_fault_in_every_state(state: State) -> None:
     rig = Rig(0.02, settings=QUICK)
     for name, (fault, leaves, to) in MATRIX.items():
         rig.bring_to(state)
-        faults = rig.conductor.ended.faults
+        faults = rig.controller.outcome.faults
         fault(rig)
         expected = {to} if state in leaves else {state} | LEADS_ON.get(state, set())
         assert rig.state in expected, (name, rig.tape.statuses[-3:])
-        assert rig.conductor.ended.faults == faults + (state in leaves and to in FAULTS), name
+        assert rig.controller.outcome.faults == faults + (state in leaves and to in FAULTS), name
         home(rig)
     engage(rig)
     assert rig.excess() <= ROUNDING
@@ -44,7 +44,7 @@ def home(rig: Rig) -> None:
     rig.tick()
     rig.until(State.PARKED, LONGEST_END)
     at_rest(rig)
-    assert geodesic(rig.motion.q_WS, IDENTITY) < AT_HOME + ROUNDING
+    assert geodesic(rig.motion.q_WS, IDENTITY) < AT_PARK + ROUNDING
 
 
 def engage(rig: Rig) -> None:
@@ -109,7 +109,9 @@ def test_buttons_in_any_order(state: State) -> None:
             rig.press(name)
             rig.fly(0.1)
         home(rig)
-    assert rig.conductor.ended.faults == (len(orders[state.number :: 7]) if state in FAULTS else 0)
+    assert rig.controller.outcome.faults == (
+        len(orders[state.number :: 7]) if state in FAULTS else 0
+    )
     engage(rig)
     assert rig.excess() <= ROUNDING
 
@@ -120,10 +122,10 @@ def test_one_signal_parks(state: State) -> None:
     rig.bring_to(state)
     rig.wanted.signals = 1
     rig.tick()
-    took = rig.until(lambda: rig.conductor.over, LONGEST_END - 1.0)
+    took = rig.until(lambda: rig.controller.over, LONGEST_END - 1.0)
     at_rest(rig)
     assert rig.state is (State.STOPPED if state in FAULTS else State.PARKED)
-    assert rig.conductor.ended.result == ("fault" if state in FAULTS else "ok")
+    assert rig.controller.outcome.result == ("fault" if state in FAULTS else "ok")
     assert rig.excess() <= ROUNDING
     assert took <= LONGEST_END
 
@@ -135,13 +137,13 @@ def test_two_signals_stop_at_once(state: State) -> None:
     rig.wanted.signals = 1
     rig.tick()
     rig.wanted.signals = 2
-    if not rig.conductor.over:
+    if not rig.controller.over:
         rig.tick()
         assert rig.state in FAULTS
-    assert rig.until(lambda: rig.conductor.over, 2.0) < 1.0
+    assert rig.until(lambda: rig.controller.over, 2.0) < 1.0
     at_rest(rig)
     expected = {State.PARKED: "ok", State.FAULT_STOPPING: "fault", State.STOPPED: "fault"}
-    assert rig.conductor.ended.result == expected.get(state, "stopped")
+    assert rig.controller.outcome.result == expected.get(state, "stopped")
     assert rig.excess() <= ROUNDING
 
 
@@ -151,7 +153,7 @@ def test_parking_from_upside_down_ends_in_time() -> None:
     rig.bring_to(State.RUNNING)
     rig.until(lambda: geodesic(rig.motion.q_WS, IDENTITY) > 3.0, 60.0)
     rig.wanted.signals = 1
-    assert rig.until(lambda: rig.conductor.over, LONGEST_END) < LONGEST_END - 0.5
+    assert rig.until(lambda: rig.controller.over, LONGEST_END) < LONGEST_END - 0.5
 
 
 @pytest.mark.parametrize("rate_hz", [100.0, 500.0, 1000.0])

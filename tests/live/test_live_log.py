@@ -22,7 +22,7 @@ STEPS = 200  # ticks between two looks at the ring
 
 def recorded(rig: Rig, path: Path) -> Path:
     """The log of all that the rig's tape has, as a live run writes it."""
-    scenario, tape, ended = rig.scenario, rig.tape, rig.conductor.ended
+    scenario, tape, ended = rig.scenario, rig.tape, rig.controller.outcome
     ring = live_ring(10.0, 1.0 / rig.dt)
     log = McapRecorder(
         path,

@@ -22,7 +22,7 @@ def run(delays: dict[int, float], ticks: int = 60, costs: dict[int, float] | Non
     """A loop whose wait before tick k (from 1) takes delays[k] s too long, and whose tick k takes costs[k] s; then it ends."""
     rig = Rig(DT, duration=1e9)
     costs = costs or {}
-    wait, tick = rig.clock.sleep_until, rig.conductor.tick
+    wait, tick = rig.clock.sleep_until, rig.controller.tick
     begun = [0]
 
     def sleep_until(time: float) -> None:
@@ -37,7 +37,7 @@ def run(delays: dict[int, float], ticks: int = 60, costs: dict[int, float] | Non
         return tick(*arguments)  # type: ignore[arg-type]
 
     rig.clock.sleep_until = sleep_until  # type: ignore[method-assign]
-    rig.conductor.tick = costly  # type: ignore[assignment, method-assign]
+    rig.controller.tick = costly  # type: ignore[assignment, method-assign]
     rig.loop.run()
     return rig
 
@@ -74,7 +74,7 @@ def test_missed_deadlines_are_counted_and_left_out() -> None:
     steps = [round((after.elapsed - before.elapsed) / DT) for before, after in pairwise(timings)]
     assert steps == [1] * 19 + [2] + [1] * 39
     assert [t.time for t in timings] == [(k + 1) * DT for k in range(60)]
-    assert rig.conductor.ended.faults == 0
+    assert rig.controller.outcome.faults == 0
 
 
 def test_a_tick_that_takes_too_long_is_not_made_up_for() -> None:
@@ -89,7 +89,7 @@ def test_a_tick_that_takes_too_long_is_not_made_up_for() -> None:
 
 def test_more_than_20_ms_late_is_a_fault() -> None:
     rig = run({20: 0.0199, 40: 0.0201})
-    assert rig.conductor.ended.result == "fault"
+    assert rig.controller.outcome.result == "fault"
     (time, _, reason), *_ = [
         status for status in rig.tape.statuses if status[1] == "fault_stopping"
     ]
@@ -109,7 +109,7 @@ def test_five_missed_in_a_row_are_borne_and_six_are_not() -> None:
 
 def test_states_are_told_before_their_first_tick() -> None:
     rig = Rig(DT)
-    rig.conductor.engage()
+    rig.controller.engage()
     events: dict[int, Callable[[], None]] = {
         200: lambda: setattr(rig.source, "quiet", True),
         240: lambda: setattr(rig.source, "quiet", False),

@@ -48,9 +48,9 @@ def load(folder: Path, text: str) -> Scenario:
 def test_a_model_of_our_own(tmp_path: Path, text: str) -> None:
     source: Source = open_source(load(tmp_path, text))
     for k in range(50):
-        intake = source.read(0.002 * k, advance=True)
-        assert intake.vehicle is not None
-        assert intake.vehicle.time == 0.002 * k
+        reading = source.read(0.002 * k, advance=True)
+        assert reading.vehicle is not None
+        assert reading.vehicle.time == 0.002 * k
     source.pin()
     source.close()
 
@@ -60,10 +60,10 @@ def test_a_recording_is_what_was_flown(tmp_path: Path) -> None:
     flown = read_log(tmp_path / "roll.mcap").vector("/vehicle", "q_nb")
     source = open_source(load(tmp_path, RECORDING))
     for k, q in enumerate(flown.tolist()[:-1]):
-        intake = source.read(k / 120.0, advance=True)
-        assert intake.vehicle is not None
-        assert geodesic(intake.vehicle.q_NB, tuple(q)) < 1e-9
-        assert not intake.over
+        reading = source.read(k / 120.0, advance=True)
+        assert reading.vehicle is not None
+        assert geodesic(reading.vehicle.q_NB, tuple(q)) < 1e-9
+        assert not reading.over
     assert source.read(len(flown) / 120.0, advance=True).over
 
 
@@ -84,9 +84,9 @@ def test_flightgear_over_loopback(tmp_path: Path) -> None:
     begun = monotonic()
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as simulator:
         simulator.sendto(packet(euler=(0.0, 0.3, 0.0)), ("127.0.0.1", port))
-        intake = source.read(monotonic() - begun, advance=True)
-        assert intake.vehicle is not None
-        assert intake.vehicle.q_NB[2] == pytest.approx(0.149438, abs=1e-6)
+        reading = source.read(monotonic() - begun, advance=True)
+        assert reading.vehicle is not None
+        assert reading.vehicle.q_NB[2] == pytest.approx(0.149438, abs=1e-6)
     with pytest.raises(InputError, match="cannot listen there"):
         open_source(load(tmp_path, FLIGHTGEAR.format(port=port)))
     source.close()

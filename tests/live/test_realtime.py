@@ -8,7 +8,7 @@ from collections.abc import Callable
 import pytest
 
 from atlas_cueing.live import realtime as module
-from atlas_cueing.live.realtime import collections, punctual
+from atlas_cueing.live.realtime import collections, realtime_scheduling
 
 
 def refuse(*_: object) -> None:
@@ -41,7 +41,7 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, object]]:
 
 def test_garbage_is_collected_once_and_then_left() -> None:
     assert gc.isenabled()
-    with punctual(priority=False) as found:
+    with realtime_scheduling(priority=False) as found:
         assert not gc.isenabled()
         assert gc.get_freeze_count() > 0
         before = collections()
@@ -57,7 +57,7 @@ def test_garbage_is_collected_once_and_then_left() -> None:
 def test_collection_that_was_off_stays_off() -> None:
     gc.disable()
     try:
-        with punctual(priority=False):
+        with realtime_scheduling(priority=False):
             pass
         assert not gc.isenabled()
     finally:
@@ -65,13 +65,13 @@ def test_collection_that_was_off_stays_off() -> None:
 
 
 def test_without_priority_nothing_is_asked(calls: list[tuple[str, object]]) -> None:
-    with punctual(priority=False):
+    with realtime_scheduling(priority=False):
         pass
     assert calls == []
 
 
 def test_what_is_granted_is_given_back(calls: list[tuple[str, object]]) -> None:
-    with punctual(priority=True) as found:
+    with realtime_scheduling(priority=True) as found:
         assert found.granted == ["SCHED_FIFO", "mlockall", "affinity"]
         assert found.refused == []
         asked = list(calls)
@@ -92,7 +92,7 @@ def test_refusals_are_told_and_do_no_harm(
     monkeypatch.setattr(os, "sched_setscheduler", refuse)
     monkeypatch.setattr(os, "sched_setaffinity", refuse)
     monkeypatch.setattr(module, "_lock_memory", refuse)
-    with punctual(priority=True) as found:
+    with realtime_scheduling(priority=True) as found:
         pass
     text = os.strerror(errno.EPERM)
     assert found.granted == []
@@ -109,7 +109,7 @@ def test_a_lock_that_fails_says_why(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(module.ctypes, "CDLL", Library)
     monkeypatch.setattr(module.ctypes, "get_errno", lambda: errno.ENOMEM)
-    with punctual(priority=True) as found:
+    with realtime_scheduling(priority=True) as found:
         pass
     assert found.refused == [f"mlockall: {os.strerror(errno.ENOMEM)}"]
 
@@ -118,7 +118,7 @@ def test_one_core_is_not_taken(
     monkeypatch: pytest.MonkeyPatch, calls: list[tuple[str, object]]
 ) -> None:
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {3})
-    with punctual(priority=True) as found:
+    with realtime_scheduling(priority=True) as found:
         pass
     assert found.refused == ["affinity: there is only one core"]
     assert "affinity" not in [name for name, _ in calls]
@@ -137,7 +137,7 @@ def test_a_priority_that_cannot_be_wholly_given_back_is_given_back_but_for_its_f
             refuse()
 
     monkeypatch.setattr(os, "sched_setscheduler", set_scheduler)
-    with punctual(priority=True):
+    with realtime_scheduling(priority=True):
         pass
     fifo = os.SCHED_FIFO | os.SCHED_RESET_ON_FORK
     assert policies == [fifo, os.SCHED_OTHER, os.SCHED_OTHER | os.SCHED_RESET_ON_FORK]
@@ -145,7 +145,7 @@ def test_a_priority_that_cannot_be_wholly_given_back_is_given_back_but_for_its_f
 
 def test_everything_is_given_back_after_an_exception() -> None:
     scheduler, cores = os.sched_getscheduler(0), os.sched_getaffinity(0)
-    with pytest.raises(ZeroDivisionError), punctual(priority=False):
+    with pytest.raises(ZeroDivisionError), realtime_scheduling(priority=False):
         _ = 1 / 0
     assert gc.isenabled()
     assert (os.sched_getscheduler(0), os.sched_getaffinity(0)) == (scheduler, cores)

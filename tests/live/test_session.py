@@ -14,11 +14,12 @@ from typing import Any
 import pytest
 
 from atlas_cueing.errors import InputError
-from atlas_cueing.live.control.guard import Command
+from atlas_cueing.live.control.command import Command
 from atlas_cueing.live.output.ring_recorder import RingRecorder
-from atlas_cueing.live.session import LiveOptions, LiveResult, LiveSession
+from atlas_cueing.live.session import LiveOptions, LiveSession
 from atlas_cueing.recording import read_log
 from atlas_cueing.review import review_log
+from atlas_cueing.run import RunResult
 from atlas_cueing.signals import LIVE_STATES
 
 from .rig import scenario
@@ -40,9 +41,7 @@ class Counting:
         self.heard.append((sequence, valid_from, state))
 
 
-def fly(
-    path: Path, options: LiveOptions = OPTIONS, drives: tuple[Counting, ...] = ()
-) -> LiveResult:
+def fly(path: Path, options: LiveOptions = OPTIONS, drives: tuple[Counting, ...] = ()) -> RunResult:
     return LiveSession(scenario("atlas-2.9m", "cueing.method=classical"), path, options).run(drives)
 
 
@@ -53,7 +52,7 @@ def test_a_run_from_a_scenario_to_a_log(tmp_path: Path) -> None:
     result = fly(tmp_path / "run.mcap", drives=(drives,))
     took = time.monotonic() - begun
     assert result.result in ("ok", LATE)
-    assert result.lost == 0
+    assert result.live.lost == 0
     log = read_log(result.log)
     states = [status.state for status in log.statuses]
     assert states[:2] == ["parked", "engaging"]
@@ -123,12 +122,12 @@ def test_a_slow_disk_does_not_hold_the_loop_up(
     monkeypatch.setattr(RingRecorder, "step", slow)
     result = fly(tmp_path / "run.mcap", replace(OPTIONS, duration=1.0))
     assert result.result in ("ok", LATE)
-    assert result.lost == 0
+    assert result.live.lost == 0
     log = read_log(result.log)
     assert len(log.column("/timing", "time_s")) == result.ticks
     if result.result == "ok":
         # or half the ticks would have waited for the disk
-        assert result.timing["lateness_p50_us"] < 125_000.0
+        assert result.live.timing["lateness_p50_us"] < 125_000.0
 
 
 def test_a_log_that_cannot_be_written_is_told_and_the_run_goes_on(

@@ -1,3 +1,4 @@
+import os
 import signal
 import threading
 
@@ -5,9 +6,11 @@ import pytest
 
 from atlas_cueing.run.stop_request import StopRequest
 
+NUMBERS = (signal.SIGINT, signal.SIGTERM)
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_is_a_request_and_the_next_one_is_not(number: signal.Signals) -> None:
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_a_signal_is_a_request_and_the_next_one_interrupts(number: signal.Signals) -> None:
     before = signal.getsignal(number)
     with StopRequest() as stop:
         assert not stop.requested
@@ -18,20 +21,28 @@ def test_a_signal_is_a_request_and_the_next_one_is_not(number: signal.Signals) -
     assert signal.getsignal(number) is before
 
 
+def test_signals_of_both_kinds_are_counted_together_where_none_interrupts() -> None:
+    with StopRequest(interrupt=False) as stop:
+        assert stop.count == 0
+        for count, number in enumerate((*NUMBERS, signal.SIGINT), start=1):
+            os.kill(os.getpid(), number)
+            assert stop.count == count
+
+
 def test_handlers_come_back_after_an_error() -> None:
-    before = signal.getsignal(signal.SIGINT)
+    before = [signal.getsignal(number) for number in NUMBERS]
 
     def fail_inside() -> None:
         with StopRequest():
-            assert signal.getsignal(signal.SIGINT) is not before
+            assert [signal.getsignal(number) for number in NUMBERS] != before
             raise ZeroDivisionError
 
     with pytest.raises(ZeroDivisionError):
         fail_inside()
-    assert signal.getsignal(signal.SIGINT) is before
+    assert [signal.getsignal(number) for number in NUMBERS] == before
 
 
-def test_another_thread_catches_nothing() -> None:
+def test_another_thread_counts_nothing() -> None:
     seen = []
 
     def enter() -> None:

@@ -135,8 +135,8 @@ def test_numbers_that_are_none_are_not_drawn_and_do_no_harm(live: Live) -> None:
 
 def test_controls_know_no_state_machine(server: Any) -> None:
     controls = Controls(server.gui, lambda _: None, {"dreaming": ("park",)}, ("park",))
-    controls.say("dreaming", "")
+    controls.show_state("dreaming", "")
     assert list(controls._buttons) == ["park"]
     assert not controls._buttons["park"].disabled
-    controls.say("awake", "")
+    controls.show_state("awake", "")
     assert controls._buttons["park"].disabled

@@ -40,7 +40,7 @@ def test_a_stopped_view_does_not_hold_the_writer_up(
         writer.tick(*live_tick(0.0))
         assert serves(viewer.url)
         os.kill(viewer.pid, signal.SIGSTOP)
-        until(lambda: state_of(viewer.pid or 0) == "T")
+        until(lambda: state_of(viewer.pid) == "T")
         for k in range(3 * ring.slots):
             writer.tick(*live_tick(k / 300.0))
         assert ring.written == 3 * ring.slots + 1

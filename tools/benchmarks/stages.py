@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 
 from atlas_cueing.cueing import CAUSAL_METHODS
+from atlas_cueing.live.control.command import command_of
 from atlas_cueing.live.control.guard import Guard
-from atlas_cueing.live.control.platform_controller import command_of
 from atlas_cueing.run import build_pipeline
 from atlas_cueing.scenario import Scenario
 from atlas_cueing.signals import Tick, VehicleState

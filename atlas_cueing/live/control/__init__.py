@@ -1,1 +1,24 @@
-"""TO WRITE."""
+"""The supervisory controller: from readings of the source to one command a tick."""
+
+from .command import Command, command_of, standstill
+from .controller import LiveController, OperatorInputs, RunOutcome
+from .guard import Guard
+from .input_monitor import InputMonitor
+from .platform_controller import PlatformController
+from .state_machine import Event, State, allowed_buttons, next_state
+
+__all__ = [
+    "Command",
+    "Event",
+    "Guard",
+    "InputMonitor",
+    "LiveController",
+    "OperatorInputs",
+    "PlatformController",
+    "RunOutcome",
+    "State",
+    "allowed_buttons",
+    "command_of",
+    "next_state",
+    "standstill",
+]

@@ -1,4 +1,8 @@
-"""One tick of a live run, whatever happens: what is seen, what follows from it, what is flown, and what goes to the drives."""
+"""The supervisory controller of a live run, one tick at a time.
+
+A tick reads the source, takes the state machine through the events of this tick, lets the platform
+controller make the next motion, and has the guard check it.
+"""
 
 # mypyc: runs every tick
 
@@ -6,45 +10,49 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 from ...errors import VehicleError
-from ...rotation import continuous
-from ...signals import Tick, VehicleState
-from ..input.source import Source, SourceReading
-from .guard import Command, Guard
+from ...signals import Tick
+from ..input.source import Source, SourceReading, no_vehicle
+from .command import Command, command_of, standstill
+from .guard import Guard
 from .input_monitor import GOOD_TO_ENGAGE, InputMonitor
-from .platform_controller import PlatformController, command_of, no_vehicle, standing
-from .state_machine import Event, State
+from .platform_controller import PlatformController
+from .state_machine import BUTTON_EVENTS, Event, State
 
 MOST_MISSED = 5  # deadlines in a row; with one more the platform is stopped
 MOST_LATE = 0.020  # s that a tick may be late
 _REMEDY = "what helps: --priority, a lower --rate, fewer programs beside it"
 
-_ASKED = {"engage": Event.ENGAGE, "hold": Event.HOLD, "park": Event.PARK, "reset": Event.RESET}
-_FAULT = (State.FAULT_STOPPING, State.STOPPED)
-_AWAY = (State.ENGAGING, State.RUNNING, State.HOLDING)
+_FAULT_STATES = (State.FAULT_STOPPING, State.STOPPED)
+_AWAY_FROM_PARK = (State.ENGAGING, State.RUNNING, State.HOLDING)
+_REST_STATES = (State.PARKED, State.STOPPED)
 
 
 @dataclass(frozen=True, slots=True)
 class OperatorInputs:
-    """What is asked from outside.
+    """What is requested of a live run from outside.
 
-    buttons: what the operator has pressed since the last call: engage, hold, park, reset.
-    signals: how often the process has been asked to end; the first parks, the second stops at once.
+    buttons: returns the buttons pressed since the last call: engage, hold, park, reset.
+    stop_requests: returns how often the process has been asked to end; the first request parks, the
+        second stops at once.
     duration: s of real time until the platform parks by itself.
-    attended: somebody can engage and reset; otherwise the run engages by itself and is over when it
-        has parked or stopped.
+    attended: an operator can engage and reset; otherwise the run engages by itself and is over when
+        it has parked or stopped.
     """
 
     buttons: Callable[[], Iterable[str]] = tuple
-    signals: Callable[[], int] = int
+    stop_requests: Callable[[], int] = int
     duration: float = float("inf")
     attended: bool = False
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class RunOutcome:
-    """How a run ended: result is ok, vehicle_failed, input_lost, fault or stopped.
+    """How a run went.
 
-    `faults` and `dropped` samples counted.
+    result: ok, vehicle_failed, input_lost, fault or stopped: the first thing that went wrong.
+    reason: what went wrong, in words; empty for ok.
+    faults: number of faults.
+    dropped: number of samples that the source refused.
     """
 
     result: str = "ok"
@@ -52,85 +60,104 @@ class RunOutcome:
     faults: int = 0
     dropped: int = 0
 
-    def because(self, result: str, reason: str) -> None:
-        """Keep the first thing that went wrong."""
-        if self.result == "ok":
-            self.result, self.reason = result, reason
-
 
 class LiveController:
-    """Holds ride, guard and source together.
+    """Runs source, state machine, platform controller and guard, a tick at a time.
 
     `tick` never raises, and every command is inside every limit.
+
+    reading: what the source reported in the last tick.
     """
 
     def __init__(
-        self, ride: PlatformController, guard: Guard, source: Source, wishes: OperatorInputs
+        self, platform: PlatformController, guard: Guard, source: Source, operator: OperatorInputs
     ) -> None:
-        """Parked, with nothing heard of the vehicle yet."""
-        self._ride, self._guard, self._source, self._wishes = ride, guard, source, wishes
-        self._supervisor = InputMonitor()
+        """Start parked, before the first reading of the source."""
+        self._platform = platform
+        self._guard = guard
+        self._source = source
+        self._operator = operator
+        self._monitor = InputMonitor()
         self._finishing = False
-        self._before = ride.motion  # of the last command that went out
-        self._known = no_vehicle(0.0)  # as in the last tick
-        self.intake = SourceReading(None, float("inf"), 0, 0, False, False, "")
-        self.changes: list[tuple[State, str]] = [(State.PARKED, "")]  # not told yet
-        self.ended = RunOutcome()
+        self._last_motion = platform.motion  # of the last command that went out
+        self._vehicle = no_vehicle(0.0)  # as last known
+        self._changes: list[tuple[State, str]] = [(State.PARKED, "")]
+        self._failures: list[tuple[str, str]] = []  # result and reason, in order
+        self._faults = self._dropped = 0
+        self.reading = SourceReading(None, float("inf"), 0, 0, False, False, "")
 
     @property
     def state(self) -> State:
         """The state the platform is in."""
-        return self._ride.state
+        return self._platform.state
 
     @property
     def over(self) -> bool:
-        """Nothing will move any more."""
-        return self.state in (State.PARKED, State.STOPPED) and self._finishing
+        """Whether the run is finished and the platform at rest for good."""
+        return self.state in _REST_STATES and self._finishing
+
+    @property
+    def outcome(self) -> RunOutcome:
+        """How the run has gone up to now."""
+        result, reason = self._failures[0] if self._failures else ("ok", "")
+        return RunOutcome(result, reason, self._faults, self._dropped)
 
     def engage(self) -> None:
-        """As if the operator had pressed it."""
-        self._supervisor.held = False
-        self._source.pin()
-        self._take(Event.ENGAGE, "asked to engage")
+        """Engage, as the operator's button does."""
+        self._handle(Event.ENGAGE, "asked to engage")
+
+    def take_changes(self) -> list[tuple[State, str]]:
+        """Return the changes of state since the last call, each with its reason."""
+        changes, self._changes = self._changes, []
+        return changes
 
     def tick(
         self, time: float, elapsed: float, lateness: float, missed_in_a_row: int
     ) -> tuple[Tick, Command]:
-        """The next tick, at `time` of the platform and `elapsed` of the clock (s), that began `lateness` s too late."""
-        tick, vehicle = None, replace(self._known, time=time)
+        """Run the next tick; return what is recorded and what the drives get.
+
+        Args:
+            time: of the platform, s.
+            elapsed: real time since the loop's start, s.
+            lateness: from the tick's deadline to its beginning, s.
+            missed_in_a_row: deadlines missed one after the other up to now.
+        """
+        tick = None
         try:
-            self._judge(elapsed)
-            self._judge_punctuality(lateness, missed_in_a_row)
-            vehicle = self._known = self._vehicle(time)
-            tick = None if self.state in _FAULT else self._ride.step(vehicle)
+            self._update_state(elapsed)
+            self._check_timing(lateness, missed_in_a_row)
+            if self.state not in _FAULT_STATES:
+                tick = self._platform.step(replace(self._vehicle, time=time))
         except Exception as error:  # noqa: BLE001
             # Whatever went wrong, the platform must come to a stop
             self._fail(f"{type(error).__name__}: {error}")
         command = self._guard.check(command_of(tick)) if tick else self._guard.stop(time)
         if tick is None or self._guard.stopping:
             self._fail(self._guard.reason)
-            tick = self._ride.stopping(self._before, vehicle, command)
-        self._before = tick.motion
+            vehicle = replace(self._vehicle, time=time)
+            tick = self._platform.guard_tick(self._last_motion, vehicle, command)
+        self._last_motion = tick.motion
         return tick, command
 
-    def _judge(self, elapsed: float) -> None:
-        """Everything that may change the state.
+    def _update_state(self, elapsed: float) -> None:
+        """Handle the events of this tick.
 
-        Arrivals first, since a source that raises keeps the rest from happening.
+        The arrival comes first, since a source that raises keeps the rest from happening.
         """
-        if self._ride.arrived():
-            self._take(Event.ARRIVED, "")
-        self._listen(elapsed)
-        self._read(elapsed)
-        for event, reason in self._supervisor.watch(
-            elapsed, self.state, self._ride.moving, self.intake
+        self._platform.start_next_trajectory()
+        if self._platform.arrived:
+            self._handle(Event.ARRIVED, "")
+        self._handle_operator(elapsed)
+        self._read_source(elapsed)
+        for event, reason in self._monitor.watch(
+            elapsed, self.state, self._platform.moving, self.reading
         ):
-            self._take(event, reason)
-        if self._finishing and self.state in _AWAY:
-            self._take(Event.PARK, "the run is over")
-        self._set_out(elapsed)
+            self._handle(event, reason)
+        if self._finishing and self.state in _AWAY_FROM_PARK:
+            self._handle(Event.PARK, "the run is over")
+        self._start_engaging(elapsed)
 
-    def _judge_punctuality(self, lateness: float, missed_in_a_row: int) -> None:
+    def _check_timing(self, lateness: float, missed_in_a_row: int) -> None:
         if lateness > MOST_LATE:
             late, most = 1e3 * lateness, 1e3 * MOST_LATE
             self._fail(
@@ -142,64 +169,56 @@ class LiveController:
                 f" {_REMEDY}"
             )
 
-    def _listen(self, elapsed: float) -> None:
-        """To the operator, to signals, and to the clock."""
-        for name in self._wishes.buttons():
-            if name == "engage":
-                self.engage()
-            elif name in _ASKED:
-                self._supervisor.held |= name == "hold"
-                self._take(_ASKED[name], f"asked to {name}")
-        asked_to_end = self._wishes.signals()
-        if asked_to_end > 1 and self.state not in _FAULT:
-            self.ended.because("stopped", "asked to stop at once")
+    def _handle_operator(self, elapsed: float) -> None:
+        """Handle buttons, requests to end, and the end of the duration."""
+        for name in self._operator.buttons():
+            if name in BUTTON_EVENTS:
+                self._handle(BUTTON_EVENTS[name], f"asked to {name}")
+        stop_requests = self._operator.stop_requests()
+        if stop_requests > 1 and self.state not in _FAULT_STATES:
+            self._failures.append(("stopped", "asked to stop at once"))
             self._fail("asked to stop at once")
-        self._finishing |= asked_to_end > 0 or elapsed >= self._wishes.duration
+        self._finishing |= stop_requests > 0 or elapsed >= self._operator.duration
 
-    def _read(self, elapsed: float) -> None:
-        """The vehicle; one that fails ends the run as its end does."""
+    def _read_source(self, elapsed: float) -> None:
+        """Read the source; a vehicle that fails ends the run as the end of its flight does."""
         try:
-            self.intake = self._source.read(elapsed, self.state is State.RUNNING)
-            self.ended.dropped += self.intake.dropped
+            self.reading = self._source.read(elapsed, self.state is State.RUNNING)
         except VehicleError as error:
-            self.ended.because("vehicle_failed", str(error))
+            self._failures.append(("vehicle_failed", str(error)))
             self._finishing = True
-        self._finishing |= self.intake.over
+        else:
+            self._dropped += self.reading.dropped
+        self._vehicle = self.reading.vehicle or self._vehicle
+        self._finishing |= self.reading.over
 
-    def _set_out(self, elapsed: float) -> None:
-        """Leave for the cue, as soon as the input has been good for long enough."""
-        waiting = self.state is State.ENGAGING and not self._ride.blending
-        enough = GOOD_TO_ENGAGE if self._ride.fresh else 0.0
-        if waiting and self.intake.vehicle and self._supervisor.good_for(elapsed) >= enough:
-            self._ride.begin(self.intake.vehicle)
-
-    def _vehicle(self, time: float) -> VehicleState:
-        """What is known of the vehicle, as at `time`.
-
-        The first attitude takes the sign that goes on from none.
-        """
-        known = self.intake.vehicle or self._known
-        return replace(known, time=time, q_NB=continuous(known.q_NB, self._known.q_NB))
+    def _start_engaging(self, elapsed: float) -> None:
+        """Start to blend to the cue, once the input has been good for long enough."""
+        waiting = self.state is State.ENGAGING and not self._platform.tracking
+        wanted = GOOD_TO_ENGAGE if self._platform.needs_cueing else 0.0
+        if waiting and self.reading.vehicle and self._monitor.good_for(elapsed) >= wanted:
+            self._platform.start_engaging(self._vehicle)
 
     def _fail(self, reason: str) -> None:
-        """Into the fault, if not there yet."""
-        if self.state in _FAULT:
+        """Raise a fault, unless there is one already."""
+        if self.state in _FAULT_STATES:
             return
-        self.ended.faults += 1
-        self.ended.because("fault", reason)
-        self._take(Event.FAULT, reason)
+        self._faults += 1
+        self._failures.append(("fault", reason))
+        self._handle(Event.FAULT, reason)
 
-    def _take(self, event: Event, reason: str) -> None:
-        """One event; a change of state is to be told, and the end of an unattended run comes with standing still."""
-        if not self._ride.handle(event):
+    def _handle(self, event: Event, reason: str) -> None:
+        """Take one event to monitor, source and state machine; note a change of state."""
+        if event is Event.ENGAGE:
+            self._monitor.held = False
+            self._source.pin()
+        elif event is Event.HOLD:
+            self._monitor.held = True
+        if not self._platform.handle(event):
             return
-        self.changes.append((self.state, reason))
+        self._changes.append((self.state, reason))
         if event is Event.RESET:
-            self._guard.start(standing(self._before))
-        if (
-            not self._wishes.attended
-            and self.state in (State.PARKED, State.STOPPED)
-            and not self._finishing
-        ):
-            self.ended.because("input_lost", "parked, since the input was lost")
+            self._guard.start(standstill(self._last_motion))
+        if not self._operator.attended and self.state in _REST_STATES and not self._finishing:
+            self._failures.append(("input_lost", "parked, since the input was lost"))
             self._finishing = True

@@ -1,36 +1,36 @@
-"""The last thing before the drives: a command is what the platform can do next, or the certified stop takes its place.
+"""The last check before the drives.
 
-It shares no arithmetic with smoothing, whose mistakes it is there to catch. What was put out last
-is (p, v, a) per wheel or stage axis; with travel T, speed V, acceleration A and jerk J at most, and
-ticks of length h, the next one is fit only if some motion of jerk at most J leads to it in one
-tick. Let D = a1 - a0 and m = h (a0 + a1) / 2 - (v1 - v0). Then, exactly,
+A command is what the platform can do next, or the certified stop takes its place. The guard shares
+no arithmetic with smoothing, whose mistakes it is there to catch. The last output is (p, v, a) per
+wheel or stage axis; with travel T, speed V, acceleration A and jerk J at most, and ticks of length
+h, the next one is fit only if some motion of jerk at most J leads to it in one tick. Let
+D = a1 - a0 and m = h (a0 + a1) / 2 - (v1 - v0). Then, exactly,
 
-    |D| <= J h        |m| <= (J h^2 - D^2 / J) / 4        -f(h + D / J) <= 2 (p1 - c) <= f(h - D / J)
+    |D| <= J h      |m| <= (J h^2 - D^2 / J) / 4      -f(h + D / J) <= 2 (p1 - c) <= f(h - D / J)
 
-    c = p0 + h (v0 + v1) / 2 - h^2 D / 8              f(d) = J (h^3 / 12 - d^3 / 48) - m^2 / (J d)
+    c = p0 + h (v0 + v1) / 2 - h^2 D / 8            f(d) = J (h^3 / 12 - d^3 / 48) - m^2 / (J d)
 
 since the extremes have jerk J at both ends of the tick and -J for d / 2 between, or the reverse: D
 fixes how long that is, m where it lies, and 2 (p1 - c) is the jerk's second moment about the middle
 of the tick. As such a motion goes through all outputs, their differences keep J to any order; that
-they keep A and V as well is asked of each pair.
+they keep A and V as well is required of each pair.
 
 Then its stop: speed, and on the stage travel, hold from there to standstill, in continuous time. So
-    every output has a
-successor: one tick along its own stop. Each wheel and each axis of W stops on its own.
+every output has a successor: one tick along its own stop. Each wheel and each axis of W stops on
+its own.
 """
 
 # mypyc: runs every tick
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from math import copysign, inf, sqrt, ulp
 
 from ...errors import InputError
 from ...rotation import ZERO, Vec3
 from ...signals import StageLimits, WheelLimits
+from .command import Command
 
-# share by which a limit may be passed, as differences of rounded numbers do; the stop is flown with
-# it, too
+# share by which a limit may be passed, as differences of rounded numbers do; the stop has it, too
 _ROUNDING = 5e-7
 _EARLY = 1e-6  # share of a tick by which a command may be early, beside the rounding of its time
 # s; a command may come so much late; after that the drives were left alone too long (assumed)
@@ -40,32 +40,16 @@ _AGES = 1e10  # s; no clock shows more, and below it ticks of 1 ms are told apar
 _Checks = tuple[tuple[str, float, float, float], ...]  # what, value, lowest and highest allowed
 
 
-@dataclass(frozen=True, slots=True)
-class Command:
-    """What the drives shall do at `time` (s): each wheel's speed (rad/s) and acceleration (rad/s^2), and the stage's motion.
-
-    The stage's position (m), velocity (m/s) and acceleration (m/s^2) are those of the sphere's
-    centre in W.
-    """
-
-    time: float
-    wheel_speed: Vec3
-    wheel_acceleration: Vec3
-    p_WS_W: Vec3
-    v_WS_W: Vec3
-    a_WS_W: Vec3
-
-
 class Guard:
     """Lets fit commands through and stops the platform, for good, at the first one that is not.
 
-    It starts at rest in the centre, at whatever time the first command has. Commands follow each
+    It starts at rest in the centre, at the time that the first command has. Commands follow each
     other by one tick of motion; their times by a tick or more, for a late one only makes the same
     differences flatter. Numbers that are not finite are inside no limits.
     """
 
     def __init__(self, dt: float, wheel_limits: WheelLimits, stage_limits: StageLimits) -> None:
-        """Tick dt in s.
+        """Start at rest in the centre; tick dt in s, limits in SI units.
 
         Raises InputError for a tick or limits that are not positive, or leave no travel between two
         ticks.
@@ -101,9 +85,9 @@ class Guard:
         self._begin(command)
 
     def check(self, command: Command) -> Command:
-        """The command if it is fit to follow the last output.
+        """Return the command if it is fit to follow the last output.
 
-        Otherwise, and from then on, the next tick of the stop.
+        Otherwise, and from then on, return the next tick of the stop.
         """
         if not self.stopping:
             try:
@@ -117,9 +101,9 @@ class Guard:
         return self.stop(command.time)
 
     def stop(self, time: float) -> Command:
-        """The next tick of the stop, for a tick at `time` (s) that has no command.
+        """Return the next tick of the stop, for a tick at `time` (s) that has no command.
 
-        From then on every tick is one.
+        From then on every tick belongs to the stop.
         """
         if not self.stopping:
             self._latch(f"no command at {time} s")
@@ -169,33 +153,22 @@ class Guard:
         self._reason = reason
 
     def _checks(self, command: Command) -> Iterator[tuple[str, _Checks]]:
-        """All that has to hold for the command to follow the last output, axis by axis."""
+        """Yield all that has to hold for the command to follow the last output, axis by axis."""
         last = self._last
         yield "", (("time", command.time, self._earliest, self._latest),)
-        before, after = (
-            (last.wheel_speed, last.wheel_acceleration),
-            (
-                command.wheel_speed,
-                command.wheel_acceleration,
-            ),
-        )
+        before = (last.wheel_speed, last.wheel_acceleration)
+        after = (command.wheel_speed, command.wheel_acceleration)
         for wheel, v0, a0, v, a in zip(self._wheels, *before, *after, strict=True):
             yield wheel.name, wheel.checks(v0, a0, v, a)
-        placed, place = (
-            (last.p_WS_W, last.v_WS_W, last.a_WS_W),
-            (
-                command.p_WS_W,
-                command.v_WS_W,
-                command.a_WS_W,
-            ),
-        )
+        placed = (last.p_WS_W, last.v_WS_W, last.a_WS_W)
+        place = (command.p_WS_W, command.v_WS_W, command.a_WS_W)
         for rail, p0, v0, a0, p, v, a in zip(self._rails, *placed, *place, strict=True):
             yield rail.name, rail.checks(v0, a0, v, a)
             yield rail.name, rail.place_checks(p0, v0, a0, p, v, a)
 
 
 class _Wheel:
-    """One axis whose position is free: its limits, with room for rounding, from one tick to the next."""
+    """One axis whose position is free: its limits, with room for rounding, for one tick."""
 
     def __init__(
         self, name: str, dt: float, speed: float, acceleration: float, jerk: float
@@ -216,7 +189,7 @@ class _Wheel:
         self.reach = self.jerk * (1.0 + _ROUNDING)
 
     def checks(self, v0: float, a0: float, v: float, a: float) -> _Checks:
-        """From speed v0 and acceleration a0 to v and a, one tick later."""
+        """Return the checks from speed v0 and acceleration a0 to v and a, one tick later."""
         h, fast, strong = self.dt, self.speed, self.acceleration
         turn, gain, D = self.jerk * h, strong * h, a - a0
         mean, bend = v0 + 0.5 * h * (a0 + a), 0.25 * (self.reach * h * h - D * D / self.reach)
@@ -230,7 +203,7 @@ class _Wheel:
         )
 
     def stop(self, p: float, v: float, a: float) -> "_Stop":
-        """The stop from this state."""
+        """Return the shortest stop from position p, speed v and acceleration a."""
         return _Stop(p, v, a, self.acceleration, self.jerk)
 
 
@@ -254,7 +227,7 @@ class _Rail(_Wheel):
     def place_checks(
         self, p0: float, v0: float, a0: float, p: float, v: float, a: float
     ) -> _Checks:
-        """From position p0, speed v0 and acceleration a0 to p, v and a, one tick later, if v and a are fit."""
+        """Return the checks from p0, v0, a0 to p, v, a, one tick later, if v and a are fit."""
         h, end, stop = self.dt, self.travel, self.stop(p, v, a)
         way, sag, old, new = (
             self.speed * h,
@@ -276,7 +249,7 @@ class _Rail(_Wheel):
     def _reachable(
         self, p0: float, v0: float, a0: float, v: float, a: float
     ) -> tuple[float, float]:
-        """Lowest and highest p to which a jerk-limited tick can lead."""
+        """Return the lowest and the highest p to which a jerk-limited tick can lead."""
         h, D = self.dt, a - a0
         m = 0.5 * h * (a0 + a) - (v - v0)
         c, skew = p0 + 0.5 * h * (v0 + v) - h * h * D / 8.0, D / self.reach
@@ -286,7 +259,7 @@ class _Rail(_Wheel):
         )
 
     def _moment(self, m: float, d: float) -> float:
-        """f(d) of the module's text."""
+        """Return f(d) of the module's text."""
         return self.reach * (self.dt * self.dt * self.dt / 12.0 - d * d * d / 48.0) - m * m / (
             self.reach * d
         )
@@ -316,10 +289,10 @@ class _Stop:
         self.turning_point = begin + sign * top * turn / 1.5 if self._since < turn else p
 
     def at(self, t: float) -> Vec3:
-        """Position, speed and acceleration t >= 0 s from its start.
+        """Return position, speed and acceleration t >= 0 s after its start.
 
-        Integrated backwards from the end: every sum is one of products, and zero at the end to the
-            last bit.
+        They are integrated backwards from the end: every sum is one of products, and zero at the
+        end to the last bit.
         """
         now, ramp, hold = self._since + t, self._ramp, self._hold
         # s, left of the last ramp, of the hold, of the first ramp
@@ -334,12 +307,12 @@ class _Stop:
 
 
 def _rates(command: Command) -> tuple[float, ...]:
-    """All that is zero at a standstill."""
+    """Return all numbers of a command that are zero at a standstill."""
     return (*command.wheel_speed, *command.wheel_acceleration, *command.v_WS_W, *command.a_WS_W)
 
 
 def _breach(examined: Iterable[tuple[str, _Checks]]) -> str:
-    """What does not hold first, or nothing; each goes with the name of its axis."""
+    """Describe the first check that does not hold, with its axis; empty when all hold."""
     breaches = (
         f"{name}{what} {value:.12g}, allowed: {low:.12g} <= value <= {high:.12g}"
         for name, checks in examined

@@ -1,9 +1,8 @@
-"""One live run's platform: the state it is in, the course it is on, and the pipeline that carries it out."""
+"""Executes the state of a live run: trajectories, and the pipeline that they go through."""
 
 # mypyc: runs every tick
 
 from collections.abc import Callable
-from dataclasses import replace
 from math import hypot, isfinite
 
 from ...cueing import CueSource
@@ -15,7 +14,6 @@ from ...rotation import (
     Quat,
     Vec3,
     apply,
-    continuous,
     geodesic,
     integrate_base,
     norm,
@@ -23,10 +21,11 @@ from ...rotation import (
     scale,
     subtract,
 )
-from ...signals import STANDARD_GRAVITY, Cue, Motion, Tick, VehicleState, WheelSpeeds
-from .guard import Command
+from ...signals import Cue, Motion, Tick, VehicleState, WheelSpeeds
+from .command import Command
 from .input_monitor import ENGAGE_TIME, RESUME_TIME
-from .state_machine import Event, State, after
+from .sign_continuity import SignContinuity
+from .state_machine import Event, State, next_state
 from .trajectories import (
     EngageTrajectory,
     FollowTrajectory,
@@ -37,22 +36,16 @@ from .trajectories import (
     calm_time,
 )
 
-# rad/s, m/s, and a tenth of it per s^2: below this the platform stands (assumed; nobody feels it)
+# rad/s, m/s, and a tenth of it per s^2: below this the platform is at rest (assumed: imperceptible)
 AT_REST = 1e-3
-AT_HOME = 1e-3  # rad and m from upright in the centre
+AT_PARK = 1e-3  # rad and m from upright in the centre
 LONGEST_BLEND = 5.0  # s
 
-_REST_FORCE: Vec3 = (0.0, 0.0, -STANDARD_GRAVITY)
-_HOME = Cue(0.0, IDENTITY, ZERO, ZERO, ZERO, ZERO)
-
-
-def no_vehicle(time: float) -> VehicleState:
-    """What stands in the log while there is no input yet: level and at rest."""
-    return VehicleState(time, IDENTITY, ZERO, _REST_FORCE)
+_PARK_CUE = Cue(0.0, IDENTITY, ZERO, ZERO, ZERO, ZERO)
 
 
 class PlatformController:
-    """Takes the platform from state to state, and gives every tick; it starts parked."""
+    """Takes the platform from state to state, and makes every tick; it starts parked."""
 
     def __init__(
         self,
@@ -61,38 +54,40 @@ class PlatformController:
         travel: Vec3,
         dt: float,
     ):
-        """new_pipeline: makes a fresh chain. sphere_from_wheels.
+        """Build the first pipeline.
 
-        J. travel of the stage in m, tick dt in s.
+        Args:
+            new_pipeline: makes a new pipeline, at rest.
+            sphere_from_wheels: J, rad/s of the sphere in W by rad/s of each wheel.
+            travel: of the stage to either side of its centre, by axis of W, m.
+            dt: tick, s.
         """
-        self._new_pipeline, self._J, self._travel, self._dt = (
-            new_pipeline,
-            sphere_from_wheels,
-            travel,
-            dt,
-        )
+        self._new_pipeline = new_pipeline
+        self._J = sphere_from_wheels
+        self._travel = travel
+        self._dt = dt
         self.state = State.PARKED
         self._pipeline = new_pipeline()
         self._cueing: CueSource | None = None
-        self._cue = _HOME
-        self._motion = self._pipeline.smoothing.step(_HOME)
-        self._course: Trajectory = HoldTrajectory(self._motion)
-        self._asked = self._motion.q_WS  # by the cue of the last tick
-        self._unused: CueSource | None = self._pipeline.cueing
+        self._unused_cueing: CueSource | None = self._pipeline.cueing
+        self._cue = _PARK_CUE
+        self._motion = self._pipeline.smoothing.step(_PARK_CUE)
+        self._signs = SignContinuity(self._motion.q_WS)
+        self._trajectory: Trajectory = HoldTrajectory(self._motion)
 
     @property
-    def blending(self) -> bool:
-        """On its way to the cue, or on it."""
-        return isinstance(self._course, EngageTrajectory | FollowTrajectory)
+    def tracking(self) -> bool:
+        """Whether it blends to the cue or follows it."""
+        return isinstance(self._trajectory, EngageTrajectory | FollowTrajectory)
 
     @property
     def moving(self) -> bool:
-        """Follows the cue or is not at rest."""
-        return self.blending or not self._arrived()
+        """Whether it tracks the cue or is not at rest."""
+        return self.tracking or not self._trajectory_completed
 
     @property
-    def fresh(self) -> bool:
-        """Parked since it last followed a cue, so that the next one is a new one."""
+    def needs_cueing(self) -> bool:
+        """Whether the next engagement starts a new cueing: after parking and after a fault."""
         return self._cueing is None
 
     @property
@@ -100,43 +95,73 @@ class PlatformController:
         """The last motion."""
         return self._motion
 
+    @property
+    def arrived(self) -> bool:
+        """Whether the motion that belongs to the state has been completed."""
+        match self.state:
+            case State.ENGAGING:
+                return isinstance(self._trajectory, EngageTrajectory) and self._trajectory.arrived
+            case State.PARKING:
+                return (
+                    isinstance(self._trajectory, ParkTrajectory)
+                    and self._trajectory_completed
+                    and _is_parked(self._motion)
+                )
+            case State.FAULT_STOPPING:
+                return _is_still(self._motion)
+        return False
+
     def handle(self, event: Event) -> bool:
-        """Take one event; whether the state changed."""
-        before, self.state = self.state, after(self.state, event)
+        """Take one event; return whether the state changed."""
+        before, self.state = self.state, next_state(self.state, event)
         if self.state is before:
             return False
-        self._enter(before)
+        self._enter_state(before)
         return True
 
-    def begin(self, vehicle: VehicleState) -> None:
-        """While engaging and not on the way yet: set out for the cue of this vehicle state."""
-        fresh = self._cueing is None
+    def start_engaging(self, vehicle: VehicleState) -> None:
+        """Start to blend to the cue for this state of the vehicle, from rest."""
+        vehicle = self._signs.vehicle(vehicle)
+        blend_time = RESUME_TIME
         if self._cueing is None:
-            self._cueing, self._unused = self._unused or self._new_pipeline().cueing, None
+            blend_time = ENGAGE_TIME
+            self._cueing, self._unused_cueing = self._take_cueing(), None
             self._cue = self._cueing.step(vehicle)
-        way = subtract(self._cue.p_WS_W, self._motion.p_WS_W)
-        calm = calm_time(geodesic(self._motion.q_WS, self._cue.q_WS), norm(way))
-        duration = min(max(calm, ENGAGE_TIME if fresh else RESUME_TIME), LONGEST_BLEND)
-        self._course = EngageTrajectory(self._motion, self._cue, self._dt, duration)
+        gap = subtract(self._cue.p_WS_W, self._motion.p_WS_W)
+        calm = calm_time(geodesic(self._motion.q_WS, self._cue.q_WS), norm(gap))
+        duration = min(max(calm, blend_time), LONGEST_BLEND)
+        self._trajectory = EngageTrajectory(self._motion, self._cue, self._dt, duration)
+
+    def start_next_trajectory(self) -> None:
+        """Start the way back to park as soon as a stop for parking has come to rest."""
+        stopping = isinstance(self._trajectory, StopTrajectory)
+        if self.state is State.PARKING and stopping and self._trajectory_completed:
+            self._trajectory = ParkTrajectory(self._motion, self._dt)
 
     def step(self, vehicle: VehicleState) -> Tick:
-        """The next tick, in any state but those of a fault.
+        """Return the next tick, in any state but those of a fault.
 
         Raises PlanningError for a cue that is not finite.
         """
-        if self.blending and self._cueing:
+        vehicle = self._signs.vehicle(vehicle)
+        if self.tracking and self._cueing:
             self._cue = self._cueing.step(vehicle)
-        cue = self._signed(self._course.step(_at(self._cue, vehicle.time)))
+        cue = self._signs.cue(self._trajectory.step(_cue_at(self._cue, vehicle.time)))
         if not isfinite(hypot(*cue.q_WS, *cue.w_WS_W, *cue.p_WS_W, *cue.v_WS_W, *cue.a_WS_W)):
             raise PlanningError(f"a cue that is not finite: {cue}")
-        self._motion = _timed(self._pipeline.smoothing.step(cue), vehicle.time)
+        self._motion = _motion_at(self._pipeline.smoothing.step(cue), vehicle.time)
         return Tick(vehicle, cue, self._motion, self._pipeline.wheels.speeds(self._motion))
 
-    def stopping(self, before: Motion, vehicle: VehicleState, command: Command) -> Tick:
-        """A tick that the guard made: the motion is what its command does to the platform, which moved as `before` a tick ago.
+    def guard_tick(self, before: Motion, vehicle: VehicleState, command: Command) -> Tick:
+        """Return the tick of a command that the guard made: the motion it gives the platform.
 
-        The turn is J times the wheels' own, by the trapezoid less dt^2/12 of the change of
-        acceleration (Euler-Maclaurin).
+        The turn of the sphere is J times the wheels' own, by the trapezoid less dt^2/12 of the
+        change of acceleration (Euler-Maclaurin).
+
+        Args:
+            before: motion of the platform a tick ago.
+            vehicle: state of the vehicle, with the time of this tick.
+            command: of the guard's stop.
         """
         dt = self._dt
         w, alpha = apply(self._J, command.wheel_speed), apply(self._J, command.wheel_acceleration)
@@ -152,84 +177,51 @@ class PlatformController:
         p, v, a = command.p_WS_W, command.v_WS_W, command.a_WS_W
         self._motion = Motion(vehicle.time, q, w, alpha, p, v, a, (1.0, 1.0))
         wheels = WheelSpeeds(vehicle.time, command.wheel_speed, command.wheel_acceleration)
-        return Tick(vehicle, self._signed(Cue(vehicle.time, q, w, p, v, a)), self._motion, wheels)
+        cue = self._signs.cue(Cue(vehicle.time, q, w, p, v, a))
+        return Tick(self._signs.vehicle(vehicle), cue, self._motion, wheels)
 
-    def arrived(self) -> bool:
-        """Whether what the state is about is done; drives home as soon as it stands."""
-        if (
-            self.state is State.PARKING
-            and isinstance(self._course, StopTrajectory)
-            and self._arrived()
-        ):
-            self._course = ParkTrajectory(self._motion, self._dt)
-        match self.state:
-            case State.ENGAGING:
-                return isinstance(self._course, EngageTrajectory) and self._course.arrived
-            case State.PARKING:
-                return (
-                    isinstance(self._course, ParkTrajectory)
-                    and self._arrived()
-                    and _is_home(self._motion)
-                )
-            case State.FAULT_STOPPING:
-                return _is_still(self._motion)
-        return False
+    @property
+    def _trajectory_completed(self) -> bool:
+        return self._trajectory.arrived and _is_at_rest(self._motion)
 
-    def _signed(self, cue: Cue) -> Cue:
-        """The cue with the sign of q that goes on from the last one: a cueing and a way home know nothing of each other's."""
-        self._asked = continuous(cue.q_WS, self._asked)
-        return cue if self._asked is cue.q_WS else replace(cue, q_WS=self._asked)
-
-    def _arrived(self) -> bool:
-        return self._course.arrived and _is_at_rest(self._motion)
-
-    def _enter(self, before: State) -> None:
-        """What a new state begins with."""
+    def _enter_state(self, before: State) -> None:
+        """Start the trajectory of a new state."""
         match self.state:
             case State.RUNNING:
-                self._course = FollowTrajectory()
+                self._trajectory = FollowTrajectory()
             case State.HOLDING | State.PARKING:
                 if before is State.STOPPED:
                     self._restart()
-                self._course = StopTrajectory(self._motion, self._dt, self._travel)
+                self._trajectory = StopTrajectory(self._motion, self._dt, self._travel)
             case State.PARKED:
-                self._cueing, self._course = None, HoldTrajectory(self._motion)
+                self._cueing, self._trajectory = None, HoldTrajectory(self._motion)
             case State.ENGAGING:
-                self._course = HoldTrajectory(self._motion)
+                self._trajectory = HoldTrajectory(self._motion)
+
+    def _take_cueing(self) -> CueSource:
+        """Return the cueing that no engagement has used yet, or a new one."""
+        return self._unused_cueing or self._new_pipeline().cueing
 
     def _restart(self) -> None:
-        """After a fault: smoothing from where the guard's stop has ended, and cueing from nothing."""
+        """After a fault: smoothing from where the guard's stop has ended, and a new cueing."""
         m = self._motion
         self._cueing, self._pipeline = None, self._new_pipeline()
-        self._unused = self._pipeline.cueing
+        self._unused_cueing = self._pipeline.cueing
         self._motion = self._pipeline.smoothing.step(
             Cue(m.time, m.q_WS, ZERO, m.p_WS_W, ZERO, ZERO)
         )
 
 
-def command_of(tick: Tick) -> Command:
-    """What a tick asks of the drives."""
-    m, wheels = tick.motion, tick.wheels
-    return Command(m.time, wheels.speed, wheels.acceleration, m.p_WS_W, m.v_WS_W, m.a_WS_W)
+def _cue_at(cue: Cue, time: float) -> Cue:
+    if cue.time == time:
+        return cue
+    return Cue(time, cue.q_WS, cue.w_WS_W, cue.p_WS_W, cue.v_WS_W, cue.a_WS_W)
 
 
-def standing(motion: Motion) -> Command:
-    """The command to stand where this motion is."""
-    return Command(motion.time, ZERO, ZERO, motion.p_WS_W, ZERO, ZERO)
+def _motion_at(motion: Motion, time: float) -> Motion:
+    """Return the motion with the tick's own time.
 
-
-def _at(cue: Cue, time: float) -> Cue:
-    return (
-        cue
-        if cue.time == time
-        else Cue(time, cue.q_WS, cue.w_WS_W, cue.p_WS_W, cue.v_WS_W, cue.a_WS_W)
-    )
-
-
-def _timed(motion: Motion, time: float) -> Motion:
-    """The motion with the tick's own time.
-
-    After a restart smoothing's differs from it by rounding.
+    After a restart smoothing's time differs from it by rounding.
     """
     m = motion
     if m.time == time:
@@ -246,5 +238,5 @@ def _is_at_rest(motion: Motion) -> bool:
     return rate < AT_REST and bend < 10.0 * AT_REST
 
 
-def _is_home(motion: Motion) -> bool:
-    return geodesic(motion.q_WS, IDENTITY) < AT_HOME and hypot(*motion.p_WS_W) < AT_HOME
+def _is_parked(motion: Motion) -> bool:
+    return geodesic(motion.q_WS, IDENTITY) < AT_PARK and hypot(*motion.p_WS_W) < AT_PARK

@@ -1,12 +1,16 @@
-"""What the platform does in a live run, and what takes it from one state to the next: all of it in one table.
+"""The state machine of a live run: states, events and the table of transitions.
 
-PARKED          at rest, upright and in the centre, until somebody engages
+PARKED          at rest, upright and in the centre, until the operator engages
 ENGAGING        waits for good input, then blends from where it stands to the cue
 RUNNING         follows the cue
 HOLDING         comes to rest and keeps its attitude
-PARKING         comes to rest and drives home
-FAULT_STOPPING  flies the guard's certified stop; no command from above is taken
+PARKING         comes to rest and moves back to upright in the centre
+FAULT_STOPPING  executes the guard's certified stop; no command from above is taken
 STOPPED         at rest after a fault; latched until a reset
+
+The table has no guard conditions: an event is raised only when its condition holds. The conditions
+on the input are in `InputMonitor`, those on the platform's motion in `PlatformController`, those on
+the loop's timing in `LiveController`.
 """
 
 from collections.abc import Collection, Mapping
@@ -16,9 +20,15 @@ from ...signals import LIVE_STATES
 
 
 class State(Enum):
-    """States; the value is the name in /status."""
+    """States in the order of signals.LIVE_STATES; the value is the name in /status."""
 
-    PARKED, ENGAGING, RUNNING, HOLDING, PARKING, FAULT_STOPPING, STOPPED = LIVE_STATES
+    PARKED = "parked"
+    ENGAGING = "engaging"
+    RUNNING = "running"
+    HOLDING = "holding"
+    PARKING = "parking"
+    FAULT_STOPPING = "fault_stopping"
+    STOPPED = "stopped"
 
     @property
     def number(self) -> int:
@@ -27,16 +37,16 @@ class State(Enum):
 
 
 class Event(Enum):
-    """What can happen in a tick.
+    """Everything that can cause a transition.
 
-    ENGAGE, HOLD, PARK, RESET: asked by the operator; PARK by a signal or the end of the flight,
-        too.
+    ENGAGE, HOLD, PARK, RESET: the operator's buttons; PARK also by a signal or the end of the
+        flight.
     READY: the input has been good for long enough and the platform stands.
     BAD: no input for a while, too many bad samples, or a jump of the vehicle.
-    LOST: no input for so long that nobody waits any more.
-    ARRIVED: what the state was about is done.
-    FAULT: the loop failed its deadlines, the tick raised, the guard refused a command, or somebody
-        asked to stop now.
+    LOST: no input for so long that waiting for it is given up.
+    ARRIVED: the motion that belongs to the state has been completed.
+    FAULT: the loop missed its deadlines, the tick raised an exception, the guard refused a command,
+        or a stop at once was requested.
     """
 
     ENGAGE = auto()
@@ -88,23 +98,30 @@ TRANSITIONS: Mapping[State, Mapping[Event, State]] = {
         Event.RESET: State.PARKING,
     },
 }
-"""Any event that a state does not name leaves it as it is."""
+"""The next state by state and event; an event that a state does not list leaves it as it is."""
+
+BUTTON_EVENTS: Mapping[str, Event] = {
+    "engage": Event.ENGAGE,
+    "hold": Event.HOLD,
+    "park": Event.PARK,
+    "reset": Event.RESET,
+}
+"""The event that each of the operator's buttons raises."""
 
 
-def after(state: State, event: Event) -> State:
-    """The state that follows."""
+def next_state(state: State, event: Event) -> State:
+    """Return the state after `event` in `state`."""
     return TRANSITIONS[state].get(event, state)
 
 
 def allowed_buttons() -> Mapping[str, Collection[str]]:
-    """Which of the operator's buttons do something, by the name of the state.
+    """Return the operator's buttons that have an effect, by the name of the state.
 
-    A hold that the input has caused can be made the operator's own, and the operator's be ended by
-    engaging.
+    While holding, `hold` makes a hold that the input has caused the operator's own, and `engage`
+    ends the operator's hold.
     """
-    asked = {"engage": Event.ENGAGE, "hold": Event.HOLD, "park": Event.PARK, "reset": Event.RESET}
     buttons = {
-        state.value: {name for name, event in asked.items() if event in TRANSITIONS[state]}
+        state.value: {name for name, event in BUTTON_EVENTS.items() if event in TRANSITIONS[state]}
         for state in State
     }
     buttons[State.HOLDING.value] |= {"engage", "hold"}

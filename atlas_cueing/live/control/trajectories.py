@@ -1,10 +1,8 @@
-"""Where the platform goes when it does not simply follow the cue.
+"""Trajectories of the platform: follow the cue, hold, stop, park, and engage.
 
-To rest, home, and from rest to the cue.
-
-Each course is smooth by itself, from the motion it is begun with, and gives a Cue a tick;
-smoothing, wheels and guard come after it as after any cue, so a course need not know the limits
-exactly. All in W.
+Each trajectory starts smoothly from a given motion and makes one Cue a tick. Smoothing, wheels and
+guard come after it as after any cue, so that a trajectory need not keep the limits exactly. All
+positions and orientations are in W.
 """
 
 # mypyc: runs every tick
@@ -32,10 +30,10 @@ from ...rotation import (
 )
 from ...signals import Cue, Motion
 
-HALT_TIME = 0.8  # s; from full speed to rest (assumed; the wheels' limits would allow half of it)
-CALM_RATE = radians(60.0)  # rad/s at most on the way home, or to the cue (assumed)
-CALM_SPEED = 0.5  # m/s, likewise
-CALM_ACCELERATION = 0.8  # m/s^2, likewise
+STOP_TIME = 0.8  # s; from full speed to rest (assumed; the wheels' limits would allow half of it)
+CALM_RATE = radians(60.0)  # rad/s at most on the way to park, or to the cue (assumed)
+CALM_SPEED = 0.5  # m/s at most on the same ways (assumed)
+CALM_ACCELERATION = 0.8  # m/s^2 at most on the same ways (assumed)
 SHORTEST_PARKING = 1.0  # s
 # rad; a turn that has grown beyond it on the way to the cue is made the other way round (assumed)
 _OTHER_WAY = 1.5 * pi
@@ -43,28 +41,28 @@ _PEAK_RATE, _PEAK_BEND = 1.875, 10.0 / sqrt(3.0)  # of `smoothstep`, per duratio
 
 
 class Trajectory(Protocol):
-    """A way to go, asked once a tick."""
+    """A motion of the platform, one step a tick."""
 
     def step(self, cue: Cue) -> Cue:
-        """Where to be one tick on; `cue` is what the cueing asks at the same time."""
+        """Return where to be one tick on; `cue` is what the cueing demands at the same time."""
 
     @property
     def arrived(self) -> bool:
-        """Whether it has led where it goes to."""
+        """Whether the trajectory has reached its end."""
 
 
 class FollowTrajectory:
-    """The cue itself."""
+    """Follows the cue."""
 
     arrived = True
 
     def step(self, cue: Cue) -> Cue:
-        """The cue."""
+        """Return the cue itself."""
         return cue
 
 
 class HoldTrajectory:
-    """At rest where the motion is."""
+    """Stays at rest at the position and orientation of a motion."""
 
     arrived = True
 
@@ -72,24 +70,24 @@ class HoldTrajectory:
         self._q, self._p = motion.q_WS, motion.p_WS_W
 
     def step(self, cue: Cue) -> Cue:
-        """The same place again."""
+        """Return the same position and orientation again."""
         return Cue(cue.time, self._q, ZERO, self._p, ZERO, ZERO)
 
 
 class StopTrajectory:
-    """To rest: rates fade out by 1 - smoothstep, faster where the travel is about to end."""
+    """Comes to rest: rates fade out by 1 - smoothstep, faster where the travel is about to end."""
 
     def __init__(self, motion: Motion, dt: float, travel: Vec3) -> None:
-        """From `motion`; tick dt in s; travel of the stage in m."""
+        """Start from `motion`; tick dt in s, travel of the stage to either side in m."""
         self._dt, self._elapsed = dt, 0.0
         self._q, self._w = motion.q_WS, motion.w_WS_W
         self._p, self._v = motion.p_WS_W, motion.v_WS_W
         each = zip(motion.p_WS_W, motion.v_WS_W, travel, strict=True)
-        self._time = HALT_TIME
-        self._rails = tuple(min(HALT_TIME, _time_left(p, v, limit)) for p, v, limit in each)
+        self._time = STOP_TIME
+        self._rails = tuple(min(STOP_TIME, _time_left(p, v, limit)) for p, v, limit in each)
 
     def step(self, cue: Cue) -> Cue:
-        """One tick nearer to rest."""
+        """Return the next cue on the way to rest."""
         self._elapsed += self._dt
         turned, rate, _ = _fading(self._elapsed, self._time)
         x, y, z = (_fading(self._elapsed, time) for time in self._rails)
@@ -105,22 +103,22 @@ class StopTrajectory:
 
     @property
     def arrived(self) -> bool:
-        """At rest."""
+        """Whether it is at rest."""
         return self._elapsed >= self._time
 
 
 class ParkTrajectory:
-    """From rest to upright in the centre, the shorter way round, in one smooth move."""
+    """Moves from rest to upright in the centre, the shorter way round, in one smooth move."""
 
     def __init__(self, motion: Motion, dt: float) -> None:
-        """From where `motion` rests; tick dt in s."""
+        """Start where `motion` rests; tick dt in s."""
         self._dt, self._elapsed = dt, 0.0
         self._q, self._p = motion.q_WS, motion.p_WS_W
         self._turn = log(conjugate(motion.q_WS))
         self.duration = max(SHORTEST_PARKING, calm_time(norm(self._turn), norm(self._p)))
 
     def step(self, cue: Cue) -> Cue:
-        """One tick nearer to home."""
+        """Return the next cue on the way to park."""
         self._elapsed += self._dt
         s, ds, dds = smoothstep(self._elapsed / self.duration)
         rate, bend = ds / self.duration, dds / self.duration**2
@@ -137,27 +135,28 @@ class ParkTrajectory:
 
     @property
     def arrived(self) -> bool:
-        """Home."""
+        """Whether it is upright in the centre."""
         return self._elapsed >= self.duration
 
 
 class EngageTrajectory:
-    """From rest to a cue that moves by itself: x = s x_cue + (1 - s) x_0 with s = smoothstep(t / T).
+    """Blends from rest to a moving cue.
 
-    On the sphere the same is done tick by tick: the orientation takes the share s of the cue's own
-    turn, and then, of what is left to the cue, the share (s1 - s0) / (1 - s0) that brings s to its
-    next value; its rate is s w_cue + s' / (1 - s) e, with e = log(q_cue q*) the turn still left:
-    the shorter way to begin with, and not changed over for a cue that runs away past half a turn.
+    The stage's position is x = s x_cue + (1 - s) x_0 with s = smoothstep(t / T). On the sphere the
+    same is done tick by tick: the orientation takes the share s of the cue's own turn, and then, of
+    what is left to the cue, the share (s1 - s0) / (1 - s0) that brings s to its next value; its
+    rate is s w_cue + s' / (1 - s) e, with e = log(q_cue q*) the turn still left: the shorter way to
+    begin with, and not changed over for a cue that runs away past half a turn.
     """
 
     def __init__(self, motion: Motion, cue: Cue, dt: float, duration: float) -> None:
-        """From where `motion` rests, with the cue of the same time; tick dt and `duration` in s."""
+        """Start where `motion` rests, with the cue of the same time; dt and `duration` in s."""
         self._dt, self._elapsed, self._duration = dt, 0.0, duration
         self._q, self._q_cue, self._p = motion.q_WS, cue.q_WS, motion.p_WS_W
         self._left = continuous(difference(self._q, self._q_cue), IDENTITY)
 
     def step(self, cue: Cue) -> Cue:
-        """One tick nearer to the cue."""
+        """Return the next cue on the way to the moving one."""
         s0 = smoothstep(self._elapsed / self._duration)[0]
         self._elapsed += self._dt
         s, ds, dds = smoothstep(self._elapsed / self._duration)
@@ -172,21 +171,21 @@ class EngageTrajectory:
 
     @property
     def arrived(self) -> bool:
-        """On the cue."""
+        """Whether it has reached the cue."""
         return self._elapsed >= self._duration - 0.5 * self._dt
 
     def _turn(self, cue: Cue, s0: float, s: float, rate: float) -> Vec3:
-        """Turn the orientation one tick on; gives its rate."""
+        """Turn the orientation one tick on; return its rate (rad/s)."""
         moved = exp(scale(s0, log(difference(self._q_cue, cue.q_WS))))
         self._q_cue = cue.q_WS
         q = multiply(moved, self._q)
         left = self._to_go(q, cue)
         share = (s - s0) / (1.0 - s0)
-        self._q = continuous(normalise(multiply(exp(scale(share, left)), q)), self._q)
+        self._q = normalise(multiply(exp(scale(share, left)), q))
         return add(scale(s, cue.w_WS_W), scale((1.0 - share) * rate / (1.0 - s), left))
 
     def _to_go(self, q: Quat, cue: Cue) -> Vec3:
-        """Rotation vector from q to the cue."""
+        """Return the rotation vector (rad) from q to the cue, kept on one way round."""
         self._left = continuous(difference(q, cue.q_WS), self._left)
         left = log_unwound(self._left)
         if norm(left) <= _OTHER_WAY:
@@ -196,16 +195,16 @@ class EngageTrajectory:
 
 
 def calm_time(angle: float, distance: float) -> float:
-    """Duration (s) of a smooth move of `angle` (rad) and `distance` (m) from rest to rest that nobody minds."""
+    """Return the duration (s) of a calm move from rest to rest by `angle` (rad), `distance` (m)."""
     by_rate = _PEAK_RATE * max(angle / CALM_RATE, distance / CALM_SPEED)
     return max(by_rate, sqrt(_PEAK_BEND * distance / CALM_ACCELERATION))
 
 
 def smoothstep(t: float) -> Vec3:
-    """s(t) = 10 t^3 - 15 t^4 + 6 t^5 from 0 at t <= 0 to 1 at t >= 1, with its first and second derivative.
+    """Return s(t) = 10 t^3 - 15 t^4 + 6 t^5 and its first and second derivative.
 
-    The lowest polynomial with s' = s'' = 0 at both ends: the path of least jerk from rest to rest
-    (Flash & Hogan, J. Neuroscience 5, 1985).
+    s goes from 0 at t <= 0 to 1 at t >= 1. It is the lowest polynomial with s' = s'' = 0 at both
+    ends: the path of least jerk from rest to rest (Flash & Hogan, J. Neuroscience 5, 1985).
     """
     if t <= 0.0:
         return ZERO
@@ -219,7 +218,7 @@ def smoothstep(t: float) -> Vec3:
 
 
 def _fading(t: float, duration: float) -> Vec3:
-    """Integral, value and derivative of 1 - smoothstep(t / duration).
+    """Return integral, value and derivative of 1 - smoothstep(t / duration).
 
     The integral goes from 0 to duration / 2.
     """
@@ -229,6 +228,9 @@ def _fading(t: float, duration: float) -> Vec3:
 
 
 def _time_left(p: float, v: float, travel: float) -> float:
-    """Duration of a halt that uses up what is left of the travel, s: it takes v times half its duration."""
+    """Return the duration (s) of a stop that uses up what is left of the travel.
+
+    A stop from speed v needs v times half its duration.
+    """
     room = travel - p if v > 0.0 else travel + p
     return max(2.0 * room / abs(v), 1e-3) if v else inf

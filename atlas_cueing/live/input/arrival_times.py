@@ -1,4 +1,4 @@
-"""When samples were taken that bear no time: arrivals without their jitter."""
+"""The times of samples that carry none: their arrival times without the jitter."""
 
 # share of each error taken into the time of a sample: it settles over some five samples (assumed)
 SETTLING = 0.2
@@ -16,18 +16,18 @@ class ArrivalTimes:
     """
 
     def __init__(self, rate_hz: float) -> None:
-        """Args: rate_hz: nominal samples per second."""
+        """Start without a sample; `rate_hz` is the nominal number of samples per second."""
         self._shortest, self._longest = 1.0 / (RANGE * rate_hz), RANGE / rate_hz
         self._period = 1.0 / rate_hz
         self._time: float | None = None
 
     @property
     def period(self) -> float:
-        """Time from one sample to the next as measured so far, s."""
+        """Time from one sample to the next as measured up to now, s."""
         return self._period
 
     def time(self, arrival: float) -> float:
-        """Time of the sample that arrived at `arrival` (s); later than all before it."""
+        """Return the time (s), later than all before, of the sample that came at `arrival` (s)."""
         if self._time is None:
             self._time = arrival
             return arrival

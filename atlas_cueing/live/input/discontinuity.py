@@ -1,4 +1,4 @@
-"""Whether one sample of a vehicle follows from the one before, or the vehicle was reset, repositioned or crashed."""
+"""The test for a discontinuity between two samples: a reset, repositioned or crashed vehicle."""
 
 # mypyc: runs every tick
 
@@ -16,7 +16,7 @@ LONGEST_EXPLAINED = 0.1  # s; over a longer gap rates explain no more than over 
 
 
 def discontinuity(before: VehicleState, now: VehicleState, jitter: float = 0.0) -> str:
-    """Why `now` does not follow from `before`; empty when it does.
+    """Describe why `now` does not follow from `before`; empty when it does.
 
     The attitude may differ from what the rates of both explain by JUMP_ANGLE, by what an angular
     acceleration makes of their distance h in time (a h^2 / 2), and by what an error of `jitter` (s)

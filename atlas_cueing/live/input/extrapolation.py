@@ -1,4 +1,4 @@
-"""The vehicle after its last sample, without a step when the next one comes."""
+"""The state of the vehicle after its last sample, without a step when the next one comes."""
 
 from math import exp as exponential
 
@@ -8,7 +8,6 @@ from ...rotation import (
     Vec3,
     add,
     conjugate,
-    continuous,
     exp,
     log,
     multiply,
@@ -27,29 +26,27 @@ STEEPEST_FORCE = 300.0
 
 
 class Extrapolation:
-    """States after the samples taken so far.
+    """Extrapolates the state of the vehicle from the samples up to now.
 
     From a sample on, body rates and force go on as they did from the one before: with a constant
     slope for as long as the last interval was, and with one that fades out exponentially after it.
     So both tend to a constant however late the next sample is, and are bounded for ever. Slopes
     steeper than those of a manoeuvre are cut: an impact does not go on.
 
-    A new sample corrects the course. What was wrong at the last state given is added to the new
-    course, shrinking linearly to nothing over one interval: attitude, rates and force go on without
-    a step. The correction of the attitude is not put into the rates, or every error of a sample's
-    time would come out as an angular acceleration.
+    A new sample corrects the prediction. The error at the last returned state is added to the new
+    prediction, shrinking linearly to nothing over one interval: attitude, rates and force go on
+    without a step. The correction of the attitude is not put into the rates, or every error of a
+    sample's time would come out as an angular acceleration. The sign of the attitude's quaternion
+    is arbitrary.
     """
 
     def __init__(self, sample: VehicleState, interval: float) -> None:
-        """Start at a sample with constant rates and force.
-
-        `interval` (s) is how soon the next one is expected.
-        """
+        """Start at a sample, with constant rates and force; the next is due `interval` s later."""
         self._sample, self._interval = sample, interval
         self._slope_w, self._slope_f = ZERO, ZERO
-        self._given = sample
+        self._last = sample  # returned
         self._corrected = sample.time  # when the correction began
-        self._missing_q, self._missing_w, self._missing_f = ZERO, ZERO, ZERO
+        self._error_q, self._error_w, self._error_f = ZERO, ZERO, ZERO
 
     def add(self, sample: VehicleState) -> None:
         """Take a later sample of the same motion."""
@@ -57,27 +54,25 @@ class Extrapolation:
         self._slope_w = _slope(self._sample.w_NB_B, sample.w_NB_B, interval, STEEPEST_RATE)
         self._slope_f = _slope(self._sample.f_B, sample.f_B, interval, STEEPEST_FORCE)
         self._sample, self._interval = sample, interval
-        given = self._given
-        q_NB, w_B, f_B = self._course(given.time)
-        self._missing_q = log(multiply(conjugate(q_NB), given.q_NB))
-        self._missing_w, self._missing_f = subtract(given.w_NB_B, w_B), subtract(given.f_B, f_B)
-        self._corrected = given.time
+        last = self._last
+        q_NB, w_B, f_B = self._prediction(last.time)
+        self._error_q = log(multiply(conjugate(q_NB), last.q_NB))
+        self._error_w, self._error_f = subtract(last.w_NB_B, w_B), subtract(last.f_B, f_B)
+        self._corrected = last.time
 
     def at(self, time: float) -> VehicleState:
-        """State at `time` (s), not before the time last asked for."""
-        q_NB, w_B, f_B = self._course(time)
+        """Return the state at `time` (s), which does not decrease from call to call."""
+        q_NB, w_B, f_B = self._prediction(time)
         left = 1.0 - (time - self._corrected) / self._interval
         if left > 0.0:
-            q_NB = multiply(q_NB, exp(scale(left, self._missing_q)))
-            w_B, f_B = (
-                add(w_B, scale(left, self._missing_w)),
-                add(f_B, scale(left, self._missing_f)),
-            )
-        self._given = VehicleState(time, continuous(q_NB, self._given.q_NB), w_B, f_B)
-        return self._given
+            q_NB = multiply(q_NB, exp(scale(left, self._error_q)))
+            w_B = add(w_B, scale(left, self._error_w))
+            f_B = add(f_B, scale(left, self._error_f))
+        self._last = VehicleState(time, q_NB, w_B, f_B)
+        return self._last
 
-    def _course(self, time: float) -> tuple[Quat, Vec3, Vec3]:
-        """Attitude, rates and force at `time` as the last two samples alone tell."""
+    def _prediction(self, time: float) -> tuple[Quat, Vec3, Vec3]:
+        """Predict attitude, rates and force at `time` from the last two samples alone."""
         sample, dt = self._sample, time - self._sample.time
         late = dt - self._interval
         if late <= 0.0:
@@ -99,6 +94,6 @@ class Extrapolation:
 
 
 def _slope(before: Vec3, now: Vec3, interval: float, steepest: float) -> Vec3:
-    """Change per second, cut to the length `steepest`."""
+    """Return the change per second, cut to the length `steepest`."""
     change = subtract(now, before)
     return scale(1.0 / max(interval, norm(change) / steepest), change)

@@ -1,9 +1,9 @@
-"""FlightGear, or JSBSim in another process, as a source: native FDM packets over UDP."""
+"""The source for FlightGear, or JSBSim in another process: native FDM packets over UDP."""
 
 from dataclasses import replace
 from math import inf
 
-from ...rotation import ZERO, continuous
+from ...rotation import ZERO
 from ...signals import VehicleState
 from ...vehicles import Bounds
 from ...vehicles.flightgear import PacketError, decode
@@ -14,7 +14,7 @@ from .source import SourceReading
 from .udp import Address, Datagram, Receiver
 
 MAX_PACKETS = 8  # taken in one read: 67 ms at 120 Hz, and some 0.2 ms of work (assumed)
-# s without a packet, after which the next one says nothing about the time between (assumed)
+# s without a packet; after that the next one does not explain the time between (assumed)
 LONGEST_GAP = 0.1
 LONGEST_GAP_PERIODS = 3.0  # for senders so slow that it is longer (assumed)
 
@@ -22,23 +22,26 @@ LONGEST_GAP_PERIODS = 3.0  # for senders so slow that it is longer (assumed)
 class FlightgearSource:
     """Reads the newest packets, checks them all, and goes on from the last good one.
 
-    A packet bears no time: it is told from arrivals, freed of their jitter. It bears no number
-    either, so order is judged by what it says. A packet that does not follow from the one before is
-    dropped; if the next follows from it, the vehicle has jumped, and if the next follows from the
-    one before, it was late, repeated or forged. The copy of a packet right behind it is dropped;
-    one in due time is a simulator that stands still, and taken with rates of zero. After a gap the
-    vehicle is where the packet says, and that is a jump too.
+    A packet carries no time: it is taken from the arrivals, without their jitter. It carries no
+    number either, so that its order is judged by its content. A packet that does not follow from
+    the one before is dropped; if the next follows from it, the vehicle has jumped, and if the next
+    follows from the one before, it was late, repeated or forged. The copy of a packet right behind
+    it is dropped; one in due time is a simulator that stands still, and taken with rates of zero.
+    After a gap the vehicle is where the packet says, and that is a jump, too.
     """
 
     def __init__(self, receiver: Receiver, rate_hz: float, bounds: Bounds | None = None) -> None:
-        """Args: receiver: where datagrams come from; rate_hz: nominal packets per second.
+        """Start without a packet.
 
-        Bounds: of a believable state.
+        Args:
+            receiver: where datagrams come from.
+            rate_hz: nominal packets per second.
+            bounds: of a believable state; those of `Bounds` by default.
         """
         self._receiver = receiver
         self._bounds = Bounds() if bounds is None else bounds
         self._arrivals = ArrivalTimes(rate_hz)
-        self._course: Extrapolation | None = None
+        self._extrapolation: Extrapolation | None = None
         # of the newest good packet, with its arrival as its time
         self._last: VehicleState | None = None
         self._content = b""  # of the same packet
@@ -51,46 +54,42 @@ class FlightgearSource:
 
     # The simulator owns its time
     def read(self, time: float, advance: bool) -> SourceReading:  # noqa: ARG002
-        """See `Source`. Takes at most MAX_PACKETS packets."""
+        """Read the state at `time` (s), see `Source`; takes at most MAX_PACKETS packets."""
         self._dropped, self._jumped, self._reason = 0, False, ""
         for _ in range(MAX_PACKETS):
             datagram = self._receiver.receive()
             if datagram is None:
                 break
             self._take(datagram, time)
-        vehicle = self._course.at(time) if self._course else None
+        vehicle = self._extrapolation.at(time) if self._extrapolation else None
         age = time - self._last.time if self._last else inf
         return SourceReading(
             vehicle, age, self._dropped, self._bad_in_a_row, self._jumped, False, self._reason
         )
 
     def pin(self) -> None:
-        """See `Source`.
-
-        Without a good packet yet there is nobody to listen to, and nothing is pinned.
-        """
+        """Take packets of the present sender only; before the first good packet, do nothing."""
         if self._sender is not None:
             self._pinned = self._sender
             self._receiver.pin(self._sender)
 
     def close(self) -> None:
-        """Let go of the port."""
+        """Close the port."""
         self._receiver.close()
 
     def _take(self, datagram: Datagram, time: float) -> None:
         if self._pinned not in (None, datagram.sender):
             # not counted in a row: a stranger must not be able to stop the vehicle
-            self._dropped, self._reason = (
-                self._dropped + 1,
-                f"packet from {datagram.sender}, pinned to {self._pinned}",
-            )
+            self._dropped += 1
+            self._reason = f"packet from {datagram.sender}, pinned to {self._pinned}"
             return
         before = self._last.time if self._last else -inf
         arrival = min(max(time - datagram.ago, before), time)
         try:
             self._add(self._decoded(datagram, arrival), datagram)
         except PacketError as error:
-            self._dropped, self._bad_in_a_row = self._dropped + 1, self._bad_in_a_row + 1
+            self._dropped += 1
+            self._bad_in_a_row += 1
             self._reason = str(error)
 
     def _decoded(self, datagram: Datagram, arrival: float) -> VehicleState:
@@ -107,19 +106,17 @@ class FlightgearSource:
         Raises PacketError for one that does neither.
         """
         jump = self._jump_to(state)
-        if self._last is not None:
-            state = replace(state, q_NB=continuous(state.q_NB, self._last.q_NB))
         sample = replace(state, time=self._arrivals.time(state.time))
-        if self._course is None or jump:
-            self._course = Extrapolation(sample, self._arrivals.period)
+        if self._extrapolation is None or jump:
+            self._extrapolation = Extrapolation(sample, self._arrivals.period)
             self._jumped, self._reason = bool(jump), jump
         else:
-            self._course.add(sample)
+            self._extrapolation.add(sample)
         self._last, self._suspect, self._bad_in_a_row = state, None, 0
         self._content, self._sender = datagram.content, datagram.sender
 
     def _jump_to(self, state: VehicleState) -> str:
-        """What jumped, if the vehicle did; empty when the packet follows.
+        """Describe what jumped, if the vehicle did; empty when the packet follows.
 
         Raises PacketError when that is not known yet.
         """

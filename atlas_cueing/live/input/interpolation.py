@@ -1,4 +1,4 @@
-"""The vehicle between two samples."""
+"""The state of the vehicle between two samples."""
 
 # mypyc: runs every tick
 
@@ -18,7 +18,7 @@ from ...signals import VehicleState
 
 
 class Interpolation:
-    """States between `before` and `now`, which must be later.
+    """Interpolates between the samples `before` and `now`, which must be later.
 
     Rates and force are linear in time. The attitude is the integral of these rates (fourth-order
     Magnus expansion), and what is then missing at `now` is spread evenly: q and w meet both
@@ -37,9 +37,9 @@ class Interpolation:
         self._missing = log(multiply(conjugate(explained), now.q_NB))
 
     def at(self, time: float, called: float) -> VehicleState:
-        """State at `time` (s), from one sample to the other, with `called` as its time.
+        """Return the state at `time` (s), from one sample to the other, with `called` as its time.
 
-        Q goes on from the sign of `before`.
+        Its q_NB has the sign that goes on from `before`.
         """
         before = self._before
         s = (time - before.time) / self._h
@@ -54,7 +54,7 @@ class Interpolation:
 
 
 def turned(q_NB: Quat, w_B: Vec3, gain_B: Vec3, dt: float) -> Quat:
-    """Attitude `dt` (s) later, when the body rate goes linearly from `w_B` to `w_B` + `gain_B` (rad/s)."""
+    """Return the attitude `dt` s later, at a body rate linear from w_B to w_B + gain_B (rad/s)."""
     turn = (
         dt * (w_B[0] + 0.5 * gain_B[0]),
         dt * (w_B[1] + 0.5 * gain_B[1]),

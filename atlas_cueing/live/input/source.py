@@ -1,18 +1,22 @@
-"""Where the vehicle comes from in real time."""
+"""The source: where the vehicle comes from in real time."""
 
 # mypyc: runs every tick
 
 from dataclasses import dataclass
 from typing import Protocol
 
-from ...signals import VehicleState
+from ...rotation import IDENTITY, ZERO, Vec3
+from ...signals import STANDARD_GRAVITY, VehicleState
+
+_REST_FORCE: Vec3 = (0.0, 0.0, -STANDARD_GRAVITY)
 
 
 @dataclass(frozen=True, slots=True)
 class SourceReading:
-    """What a source knows at the asked time.
+    """What a source reports at the time of a read.
 
-    vehicle: the vehicle at the asked time, which is its `time`; None until a first good sample.
+    vehicle: state of the vehicle at that time, which is its `time`; None until a first good sample.
+        The sign of its q_NB is arbitrary.
     age: s since the newest good sample; 0 for a source that cannot be late, infinite before the
         first sample.
     dropped: samples refused since the last read.
@@ -33,18 +37,26 @@ class SourceReading:
 
 
 class Source(Protocol):
-    """A vehicle that can be asked for at any time."""
+    """A vehicle whose state can be read at any time."""
 
     def read(self, time: float, advance: bool) -> SourceReading:
-        """The state at `time` (s since the loop's start, monotonic, strictly increasing from call to call).
+        """Return the state at `time`, without waiting and with a bounded amount of work.
 
-        advance: False lets the vehicle's own time stand still, as in a paused simulator; only
-        sources that own their time obey. Never waits, and does a bounded amount of work. Raises
-        VehicleError when a model of our own fails.
+        Args:
+            time: s since the loop's start, monotonic, strictly increasing from call to call.
+            advance: False lets the vehicle's own time stand still, as in a paused simulator; only
+                sources that own their time obey.
+
+        Raises VehicleError when a model that runs in this process fails.
         """
 
     def pin(self) -> None:
-        """From now on listen to the present sender only."""
+        """From now on take samples of the present sender only."""
 
     def close(self) -> None:
-        """Let go of what the source holds; nothing is read after it."""
+        """Release what the source holds; nothing is read after it."""
+
+
+def no_vehicle(time: float) -> VehicleState:
+    """Return the state that stands in the log before the first sample: level and at rest."""
+    return VehicleState(time, IDENTITY, ZERO, _REST_FORCE)

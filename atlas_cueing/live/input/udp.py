@@ -1,4 +1,4 @@
-"""Datagrams from a loopback port, without waiting."""
+"""Receives datagrams at a port, without waiting."""
 
 import socket
 from contextlib import suppress
@@ -10,8 +10,8 @@ from ...errors import InputError
 
 Address: TypeAlias = tuple[str, int]
 
-LARGEST = 2048  # bytes read of a datagram; a longer one is cut, and no packet of ours
-# bytes the kernel keeps for us: some 50 packets, so that a flood does not bring old ones (assumed)
+LARGEST = 2048  # bytes read of a datagram; a longer one is cut, and is no packet of a simulator
+# bytes the kernel keeps unread: some 50 packets, so that a flood does not bring old ones (assumed)
 BUFFER = 64 * 1024
 
 _SO_TIMESTAMPNS = 35  # Linux, asm-generic/socket.h; Python has no name for it
@@ -28,29 +28,30 @@ class Datagram(NamedTuple):
 
 
 class Receiver(Protocol):
-    """Whatever datagrams come from."""
+    """Where datagrams come from."""
 
     def receive(self) -> Datagram | None:
-        """The oldest datagram not yet received; None when there is none."""
+        """Return the oldest datagram not yet received; None when there is none."""
 
     def pin(self, sender: Address) -> None:
         """From now on take datagrams of this sender only."""
 
     def close(self) -> None:
-        """Let go of the port."""
+        """Close the port."""
 
 
 class UdpReceiver:
     """A bound UDP socket (implements Receiver).
 
-    The kernel notes when a datagram arrives, whenever it is read.
-
-    After `pin` the kernel itself throws away what others send, so that they can neither be heard
-    nor fill the buffer.
+    The kernel notes when a datagram arrives, however late it is read. After `pin` the kernel itself
+    throws away what others send, so that it can neither be received nor fill the buffer.
     """
 
     def __init__(self, host: str, port: int) -> None:
-        """Bind. Raises InputError when the port cannot be had."""
+        """Bind to `host` and `port`; 0 takes a free one.
+
+        Raises InputError when the port is not available.
+        """
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         try:
             self._socket.setblocking(False)
@@ -66,12 +67,12 @@ class UdpReceiver:
 
     @property
     def address(self) -> Address:
-        """Where it listens."""
+        """Address that it listens at."""
         host, port = self._socket.getsockname()
         return host, port
 
     def receive(self) -> Datagram | None:
-        """See Receiver. A socket error means as much as no datagram."""
+        """Return the oldest datagram, see Receiver; a socket error counts as no datagram."""
         try:
             content, ancillary, _, sender = self._socket.recvmsg(LARGEST, _ANCILLARY)
         except OSError:  # BlockingIOError: nothing there
@@ -79,19 +80,19 @@ class UdpReceiver:
         return Datagram(content, sender, _ago(ancillary))
 
     def pin(self, sender: Address) -> None:
-        """See Receiver. What others sent before may still be received."""
+        """Take datagrams of this sender only; what others sent before may still be received."""
         with suppress(OSError):
             self._socket.connect(sender)
 
     def close(self) -> None:
-        """See Receiver."""
+        """Close the socket."""
         self._socket.close()
 
 
 def _ago(ancillary: list[tuple[int, int, bytes]]) -> float:
-    """Seconds since the kernel's time stamp.
+    """Return the seconds since the kernel's time stamp.
 
-    0 without one, and when the system's clock was put back since.
+    They are 0 without one, and when the system's clock was put back since.
     """
     for level, kind, stamp in ancillary:
         if level == socket.SOL_SOCKET and kind == _SO_TIMESTAMPNS and len(stamp) == _TIMESPEC.size:

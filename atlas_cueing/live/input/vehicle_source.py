@@ -1,10 +1,10 @@
-"""A vehicle that owns its time, in step with the clock: JSBSim, test signals, or a recording."""
+"""The source for a vehicle that owns its time, as JSBSim, test signals, or a recording."""
 
 # mypyc: runs every tick
 
 from dataclasses import replace
 
-from ...rotation import ZERO, continuous
+from ...rotation import ZERO
 from ...signals import Vehicle, VehicleState
 from .discontinuity import discontinuity
 from .interpolation import Interpolation
@@ -15,15 +15,15 @@ MAX_STEPS = 50
 
 
 class VehicleSource:
-    """Reads a vehicle at any time between its steps, without delay: the model is stepped just past the time asked for.
+    """Reads a vehicle at any time between its steps, without delay.
 
-    The vehicle's time begins at 0 with the first read and goes on with the clock, but for reads
-    that do not advance: then the vehicle stands still, with its attitude and force and no rates. So
-    it does after its last state. A model too slow for the clock, or a gap between two reads, costs
-    at most MAX_STEPS steps a read; what is left over is not made up for, and the vehicle's time
-    falls behind.
+    The model is stepped just past the time of the read. The vehicle's time begins at 0 with the
+    first read and goes on with the clock, but for reads that do not advance: then the vehicle
+    stands still, with its attitude and force and no rates. So it does after its last state. A model
+    too slow for the clock, or a gap between two reads, costs at most MAX_STEPS steps a read; what
+    is left over is not made up for, and the vehicle's time falls behind.
 
-    A jump between two steps is not turned through: its end is given as soon as it has begun.
+    A jump between two steps is not interpolated: its end is returned as soon as it has begun.
     """
 
     def __init__(self, vehicle: Vehicle) -> None:
@@ -33,12 +33,12 @@ class VehicleSource:
         self._elapsed = 0.0  # of the vehicle's own time
         self._next = vehicle.state
         self._between: Interpolation | None = None  # none across a jump, and before the first step
-        self._q_NB = vehicle.state.q_NB
+
         self._over = False
         self._jump = ""
 
     def read(self, time: float, advance: bool) -> SourceReading:
-        """See `Source`.
+        """Read the state at `time` (s), see `Source`.
 
         Raises what the vehicle raises, when it is stepped past its last good state.
         """
@@ -50,14 +50,13 @@ class VehicleSource:
         state = self._at(self._start + self._elapsed, time)
         if self._over or not advance:
             state = replace(state, w_NB_B=ZERO)
-        self._q_NB = state.q_NB
         return SourceReading(state, 0.0, 0, 0, bool(self._jump), self._over, self._jump)
 
     def pin(self) -> None:
-        """There is only one sender."""
+        """Do nothing: there is only one sender."""
 
     def close(self) -> None:
-        """Nothing is held."""
+        """Do nothing: there is nothing to release."""
 
     def _follow(self, time: float) -> None:
         """Step the vehicle until `time` (its own) lies between its last two states."""
@@ -78,6 +77,6 @@ class VehicleSource:
         self._jump = jump or self._jump
 
     def _at(self, time: float, called: float) -> VehicleState:
-        between = self._between
-        state = between.at(time, called) if between else replace(self._next, time=called)
-        return replace(state, q_NB=continuous(state.q_NB, self._q_NB))
+        if self._between:
+            return self._between.at(time, called)
+        return replace(self._next, time=called)

@@ -1,9 +1,9 @@
-"""The live run in Foxglove: its WebSocket server in a process of its own, fed with the very messages that the log has.
+"""The live run in Foxglove: its WebSocket server, in a process of its own.
 
-foxglove-sdk serves; as of 0.30 it listens where it is told and opens nothing else, but lets in web
-pages of any origin. So it stands behind an `OriginGate`, at a random address of 127.0.0.0/8. Its
-queue for each client is bounded and drops the oldest; no service, parameter, asset or publishing by
-clients is offered.
+Its messages are those of the log. As of 0.30 foxglove-sdk opens no other port than the one it is
+given, but lets in web pages of any origin. So it stands behind an `OriginGate`, at a random address
+of 127.0.0.0/8. Its queue for each client is bounded and drops the oldest; no service, parameter,
+asset or publishing by clients is offered.
 """
 
 import asyncio
@@ -30,8 +30,8 @@ from ...telemetry.origin_gate import OriginGate, listen
 if TYPE_CHECKING:
     from foxglove import Channel, Context
 
-RATE_HZ = 60.0  # the newest tick so often: what a screen draws
-REPEAT_S = 1.0  # s after which the state is said again, for clients that came later
+RATE_HZ = 60.0  # of the newest tick: as often as a screen draws
+REPEAT_S = 1.0  # s after which the state is sent again, for clients that came later
 BACKLOG = 256  # messages kept for a client that does not read: half a second of all topics
 # Foxglove in a browser; its desktop program (assumed)
 ORIGINS = ("https://app.foxglove.dev", "file://")
@@ -39,17 +39,19 @@ _NAME = "atlas_cueing"
 
 
 class FoxgloveProcess:
-    """Serves a live run to Foxglove on this machine, until END is in the ring or the loop is gone."""
+    """Serves a live run to Foxglove on this machine, until END is in the ring or the loop ends."""
 
     def __init__(self, ring: Ring, port: int, head_S: Vec3, started_ns: int) -> None:
-        """Fork.
+        """Fork the server.
 
-        ring: written by this process only. port: of 127.0.0.1; 0 takes a free one. head_S: the
-            rider's head, m, frame S, for
-        /felt. started_ns: as McapRecorder has it.
+        Args:
+            ring: written by this process only.
+            port: of 127.0.0.1; 0 takes a free one.
+            head_S: position of the rider's head for /felt, m, frame S.
+            started_ns: start of the run, ns since 1970, as McapRecorder has it.
 
-        Raises MissingExtraError when foxglove-sdk is not installed, InputError when the port cannot
-        be had.
+        Raises MissingExtraError when foxglove-sdk is not installed, InputError when the port is not
+        available.
         """
         if find_spec("foxglove") is None:
             raise MissingExtraError("--foxglove", "foxglove-sdk", "foxglove")
@@ -60,12 +62,12 @@ class FoxgloveProcess:
 
     @property
     def pid(self) -> int:
-        """Of the process."""
+        """Process id of the server."""
         return self._process.pid
 
     @property
     def url(self) -> str:
-        """What to open in Foxglove."""
+        """Address to open in Foxglove."""
         return f"ws://127.0.0.1:{self.port}"
 
     @property
@@ -74,18 +76,18 @@ class FoxgloveProcess:
         return self._process.alive
 
     def close(self, timeout: float = 2.0) -> bool:
-        """End it, by force after `timeout` s; whether it had served until now.
+        """End the server, by force after `timeout` s; return whether it had served until now.
 
-        Harmless when called again.
+        A second call is harmless.
         """
         return self._process.finish(timeout).status == 0
 
 
 class Feed:
-    """Messages for viewers from a ring: the newest tick and all changes of state."""
+    """Encodes messages for viewers from a ring: the newest tick and all changes of state."""
 
     def __init__(self, ring: Ring, head_S: Vec3, started_ns: int) -> None:
-        """Of `ring` from here on; see FoxgloveProcess."""
+        """Read `ring` from its next message on; see FoxgloveProcess for the arguments."""
         self.topics = (*(topic.name for topic in LIVE_TOPICS), TF, STATUS_TOPIC)
         self.over = False
         self._reader = RingReader(ring)
@@ -94,10 +96,13 @@ class Feed:
         self._status_class = message_class(*schema_of(STATUS_TOPIC))
         self._started = self._latest = started_ns
         self._state: StateChange | None = None
-        self._said = 0.0
+        self._state_sent = 0.0  # s, monotonic
 
     def new(self, now: float) -> list[tuple[str, int, bytes]]:
-        """Topic, log time (ns) and content of what to show at `now` (s, monotonic)."""
+        """Return topic, log time (ns) and content of the messages to send at `now`.
+
+        `now` is in s and monotonic.
+        """
         tick, states = b"", []
         for kind, data in self._reader.newest():
             if kind == TICK:
@@ -106,10 +111,10 @@ class Feed:
                 states.append(status(data))
             self.over = self.over or kind == END
         messages = self._ticks(tick) if tick else []
-        if not states and self._state and now >= self._said + REPEAT_S:
+        if not states and self._state and now >= self._state_sent + REPEAT_S:
             states = [self._state]
         if states:
-            self._state, self._said = states[-1], now
+            self._state, self._state_sent = states[-1], now
         return messages + [self._status(state) for state in states]
 
     def _ticks(self, tick: bytes) -> list[tuple[str, int, bytes]]:
@@ -125,10 +130,10 @@ class Feed:
 
 
 async def _serve(feed: Feed, listener: socket.socket, left: Left) -> bytes:
-    """Until the run is over."""
+    """Serve until the run is over."""
     import foxglove
 
-    foxglove.set_log_level("CRITICAL")  # a client that vanishes is no error of ours
+    foxglove.set_log_level("CRITICAL")  # a client that vanishes is no error of the server
     context = foxglove.Context()
     host = str(IPv4Address("127.0.0.0") + 1 + secrets.randbelow(2**24 - 2))
     server = foxglove.start_server(

@@ -1,10 +1,8 @@
-"""What a drive controller does with set points.
+"""The drive controller's side of the set points: a reference receiver with a watchdog.
 
-A reference, with the watchdog that stops the platform when they cease.
-
-Time is the sender's CLOCK_MONOTONIC in s. A receiver on another machine adds the difference of the
-clocks, which it has to keep itself (as with PTP); a difference of more than AHEAD_S is refused
-packet by packet.
+The watchdog stops the platform when the set points cease. Time is the sender's CLOCK_MONOTONIC in
+s. A receiver on another machine adds the difference of the clocks, which it has to keep itself (as
+with PTP); a difference of more than AHEAD_S is refused packet by packet.
 """
 
 from collections import deque
@@ -12,9 +10,8 @@ from math import copysign, inf
 
 from ...errors import SetPointError
 from ...rotation import Vec3
-from ..control.guard import Command
-from ..input.udp import Address
-from .setpoint import SetPoint, check_key, decode
+from ..control.command import Command
+from .setpoint import Address, SetPoint, check_key, decode
 
 WATCHDOG_S = 0.1  # s without a good packet, or past the newest set point's valid-from, that trip
 AHEAD_S = 0.1  # s that a valid-from may lie in the future; more is a clock that is not the sender's
@@ -31,30 +28,33 @@ class SetPointReceiver:
     trips the stage goes on by up to speed * WATCHDOG_S, which the drives' own end stops have to
     allow for.
 
-    good, refused: packets taken and not taken, since the start.
+    good, refused: number of packets taken and not taken since the start.
     """
 
     def __init__(
         self, wheel_acceleration: Vec3, stage_acceleration: Vec3, key: bytes = b""
     ) -> None:
-        """Accelerations of the stop ramp, rad/s^2 by wheel and m/s^2 by axis of W.
+        """Wait for the first set point.
+
+        Args:
+            wheel_acceleration: of the stop ramp of each wheel, rad/s^2.
+            stage_acceleration: of the stop ramp of each axis of W, m/s^2.
+            key: shared with the sender; empty for none.
 
         Raises InputError for a bad key.
         """
         check_key(key)
-        self._wheel_acceleration, self._stage_acceleration, self._key = (
-            wheel_acceleration,
-            stage_acceleration,
-            key,
-        )
+        self._wheel_acceleration = wheel_acceleration
+        self._stage_acceleration = stage_acceleration
+        self._key = key
         self.good = self.refused = 0
         self.reset()
 
     def reset(self) -> None:
-        """Forget the sender and whatever tripped; the platform has to stand."""
+        """Forget the sender and why it tripped; the platform has to stand."""
         self._points: deque[SetPoint] = deque(maxlen=_KEPT)
         self._sender: Address | None = None
-        self._heard = inf  # time of the last good packet
+        self._received = inf  # time of the last good packet
         self._stop: Command | None = None  # where the stop ramp begins
         self._reason = ""
 
@@ -65,11 +65,11 @@ class SetPointReceiver:
 
     @property
     def newest(self) -> SetPoint | None:
-        """The last good one; None before the first."""
+        """The last good set point; None before the first."""
         return self._points[-1] if self._points else None
 
     def take(self, packet: bytes, sender: Address, now: float) -> str:
-        """Take a packet that came at `now`; why it was refused, or an empty string."""
+        """Take a packet of `sender` that came at `now` (s); return why it was refused, or ''."""
         self._watch(now)
         try:
             point = decode(packet, self._key)
@@ -81,14 +81,14 @@ class SetPointReceiver:
             self.refused += 1
             return reason
         self.good += 1
-        self._sender, self._heard = sender, now
+        self._sender, self._received = sender, now
         self._points.append(point)
         return ""
 
     def at(self, now: float) -> Command | None:
-        """What the drives shall do at `now`, which does not decrease.
+        """Return the motion of the drives at `now` (s), which does not decrease.
 
-        None before the first good packet: stand still.
+        It is None before the first good packet: stand still.
         """
         self._watch(now)
         if self._stop is not None:
@@ -96,7 +96,7 @@ class SetPointReceiver:
         return self._follow(now)
 
     def _follow(self, now: float) -> Command | None:
-        """Interpolated, or from the newest set point on."""
+        """Interpolate, or go on from the newest set point."""
         points = self._points
         while len(points) > 1 and points[1].valid_from <= now:
             points.popleft()
@@ -107,13 +107,13 @@ class SetPointReceiver:
         return _between(points[0], points[1], now)
 
     def _watch(self, now: float) -> None:
-        """Trip if it is time to."""
+        """Trip if the set points have ceased."""
         if self._reason or not self._points:
             return
         newest = self._points[-1].valid_from
-        if now - self._heard > WATCHDOG_S:
+        if now - self._received > WATCHDOG_S:
             self._reason = (
-                f"no good set point for {now - self._heard:.3f} s, allowed: {WATCHDOG_S} s"
+                f"no good set point for {now - self._received:.3f} s, allowed: {WATCHDOG_S} s"
             )
         elif now - newest > WATCHDOG_S:
             self._reason = f"set points late by {now - newest:.3f} s, allowed: {WATCHDOG_S} s"
@@ -121,7 +121,7 @@ class SetPointReceiver:
             self._stop = self._follow(now)
 
     def _refusal(self, point: SetPoint, sender: Address, now: float) -> str:
-        """Why a whole packet is not followed."""
+        """Describe why an intact packet is not followed; empty when it is."""
         last = self.newest
         if self._reason:
             return f"stopped: {self._reason}; reset first"
@@ -151,7 +151,7 @@ class SetPointReceiver:
         return ""
 
     def _ramp(self, start: Command, t: float) -> Command:
-        """The stop, t s into it."""
+        """Return the command t s into the stop."""
         wheels = [
             _brake(0.0, v, a, t)
             for v, a in zip(start.wheel_speed, self._wheel_acceleration, strict=True)
@@ -169,7 +169,7 @@ class SetPointReceiver:
 
 
 def _brake(p: float, v: float, most: float, t: float) -> Vec3:
-    """Position, speed and acceleration t s into a stop at constant deceleration."""
+    """Return position, speed and acceleration t s into a stop at constant deceleration."""
     end = abs(v) / most
     a = -copysign(most, v) if t < end else 0.0
     t = min(t, end)
@@ -186,7 +186,7 @@ def _timed(point: SetPoint, time: float) -> Command:
 
 
 def _coast(point: SetPoint, now: float) -> Command:
-    """From the newest set point on, at its speeds."""
+    """Return the command at `now` after the newest set point, at its speeds."""
     c, t = point.command, now - point.valid_from
     (px, py, pz), (vx, vy, vz) = c.p_WS_W, c.v_WS_W
     still = (0.0, 0.0, 0.0)
@@ -209,7 +209,7 @@ def _between(one: SetPoint, two: SetPoint, now: float) -> Command:
 
 
 def _cubic(x0: Vec3, d0: Vec3, x1: Vec3, d1: Vec3, h: float, s: float) -> Vec3:
-    """Hermite: values x and derivatives d at both ends of a stretch of h s, a share s into it."""
+    """Interpolate (Hermite) between values x and derivatives d at both ends of h s, at share s."""
     r = 1.0 - s
     u0, w0, u1, w1 = (1.0 + 2.0 * s) * r * r, h * s * r * r, (1.0 + 2.0 * r) * s * s, -h * r * s * s
     x, y, z = (u0 * p + w0 * v + u1 * q + w1 * w for p, v, q, w in zip(x0, d0, x1, d1, strict=True))

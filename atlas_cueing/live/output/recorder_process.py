@@ -1,4 +1,4 @@
-"""The recorder of a live run, in a process that a slow disk may hold up."""
+"""The recorder of a live run in a process of its own, which a slow disk may hold up."""
 
 import json
 from dataclasses import asdict
@@ -9,14 +9,13 @@ from ...telemetry import Ring
 from ...telemetry.child_process import ChildProcess, Left, ProcessExit
 from .ring_recorder import Recorded, RingRecorder
 
-POLL_S = 0.01  # s between two looks at the ring
-# s that the last chunks and their way to a slow, busy disk may take (assumed); nobody rides any
-# more
+POLL_S = 0.01  # s between two reads of the ring
+# s that the last chunks may take to a slow, busy disk (assumed); the platform is at rest by then
 FINISH_S = 60.0
 
 
 class RecorderProcess:
-    """Writes the log of whatever goes into a ring from now on.
+    """Writes the log of what goes into a ring from now on.
 
     The log is finished when END is in the ring. If the loop's process ends without, however it
     ends, the log is finished with the result `loop_killed`. If this process is killed, the log's
@@ -24,11 +23,12 @@ class RecorderProcess:
     """
 
     def __init__(self, ring: Ring, recorder: McapRecorder, *, announce: bool = False) -> None:
-        """Fork.
+        """Fork the recorder.
 
-        ring: has to be there before, of course, and must be written by this process only.
-        recorder: open, with `started_ns`; it goes over to the new process.
-        announce: tell every change of state on stderr.
+        Args:
+            ring: written by this process only.
+            recorder: open, with `started_ns`; it goes over to the new process.
+            announce: report every change of state on stderr.
         """
         follower = RingRecorder(ring, recorder, announce=announce)
         self._process = ChildProcess(lambda left: _follow(follower, left))
@@ -36,7 +36,7 @@ class RecorderProcess:
 
     @property
     def pid(self) -> int:
-        """Of the process."""
+        """Process id of the recorder."""
         return self._process.pid
 
     @property
@@ -50,22 +50,21 @@ class RecorderProcess:
     def finish(self, timeout: float = FINISH_S) -> Recorded:
         """Wait for the finished log, at most `timeout` s.
 
-        Then the process is killed and the log stays a .part.
-
-        END should be in the ring before. Harmless when called again.
+        After that the process is killed and the log stays a .part. END should be in the ring
+        before. A second call is harmless.
         """
         ended = self._process.finish(timeout)
         if ended.answer:
             return Recorded(**json.loads(ended.answer))
         return Recorded(
-            "recorder_died", f"{_how(ended)}; the log is a .part: atlas-cueing recover", 0, 0
+            "recorder_died", f"{_describe(ended)}; the log is a .part: atlas-cueing recover", 0, 0
         )
 
 
 def _follow(recorder: RingRecorder, left: Left) -> bytes:
     """Record until the end, or until nothing more can come."""
     while True:
-        # asked before the ring is read: what the loop wrote until it went is then in there
+        # before the ring is read: what the loop wrote until its end is then in there
         last = left()
         recorded = recorder.step(monotonic())
         if recorded is None and last:
@@ -75,6 +74,6 @@ def _follow(recorder: RingRecorder, left: Left) -> bytes:
         sleep(POLL_S)
 
 
-def _how(ended: ProcessExit) -> str:
+def _describe(ended: ProcessExit) -> str:
     kind = "signal" if ended.status < 0 else "exit status"
     return f"the recorder's process ended with {kind} {abs(ended.status)}"

@@ -13,17 +13,16 @@ from ...signals import StateChange
 from ...telemetry import Ring, RingReader
 from ...telemetry.messages import END, STATUS, TICK, numbers, status
 
-# ticks are on their way to the disk after at most this and one poll: the loss by a kill is to be
-# below 0.1 s
+# a tick goes to the disk after at most this and one poll: a kill loses less than 0.1 s
 FLUSH_S = 0.06
-# at most, when there is much to catch up with; below the recorder's own, so that the count is ours
+# at most, when there is much to catch up with; fewer than in a chunk of the recorder's own
 CHUNK_TICKS = 256
 _STDERR = 2
 
 
 @dataclass(frozen=True, slots=True)
 class Recorded:
-    """What became of a recording.
+    """How a recording ended.
 
     result, reason: as in the log's metadata; `recording_failed` with the first error when the log
         could not be written.
@@ -37,10 +36,10 @@ class Recorded:
 
 
 class RingRecorder:
-    """Takes over what is new in a ring, and goes on taking when the log cannot be written any more.
+    """Moves messages from a ring into a log.
 
-    A gap (the ring went round faster than the log was written) is a status `recording_gap` at the
-    last tick before it.
+    It goes on reading the ring when the log cannot be written any more. A gap (the ring went round
+    faster than the log was written) is a status `recording_gap` at the last tick before it.
     """
 
     def __init__(
@@ -49,17 +48,21 @@ class RingRecorder:
         recorder: McapRecorder,
         *,
         announce: bool = False,
-        say: Callable[[str], None] | None = None,
+        report: Callable[[str], None] | None = None,
     ):
-        """Read `ring` from here on into `recorder`.
+        """Read `ring` from its next message on into `recorder`.
 
-        announce: tell every change of state. say: takes lines for the user, without their end;
-        stderr without waiting by default.
+        Args:
+            ring: of a live run.
+            recorder: open, with `started_ns`.
+            announce: report every change of state.
+            report: takes lines for the user, without their end; by default they go to stderr
+                without waiting.
         """
         self._reader = RingReader(ring)
         self._recorder = recorder
         self._announce = announce
-        self._say = say or tell
+        self._report = report or report_on_stderr
         self._flushed = -1.0
         # ticks read, ticks in the log, messages known to be lost
         self._taken = self._kept = self._lost = 0
@@ -68,13 +71,10 @@ class RingRecorder:
         self._end: StateChange | None = None
 
     def step(self, now: float) -> Recorded | None:
-        """Take over what is new at `now` (s, monotonic).
-
-        The outcome once the loop has said its END.
-        """
+        """Take over what is new at `now` (s, monotonic); return the outcome after the END."""
         for kind, data in self._reader.messages():
-            # what is overwritten is so by something newer, before which it is told
-            self._tell_gap()
+            # what overwrote the lost messages is newer than the gap
+            self._record_gap()
             self._take(kind, data)
         if self._end is not None:
             return self._close(self._end.state, self._end.reason)
@@ -84,7 +84,7 @@ class RingRecorder:
         return None
 
     def orphaned(self) -> Recorded:
-        """The loop is gone and said no END: finish the log all the same."""
+        """Finish the log of a loop that ended without an END in the ring."""
         reason = f"the loop ended without a word after {self._latest:.3f} s"
         self._status(StateChange(self._latest, "stopped", reason))
         return self._close("loop_killed", reason)
@@ -104,9 +104,9 @@ class RingRecorder:
     def _status(self, new: StateChange) -> None:
         self._try(lambda: self._recorder.status(new.time, new.state, new.reason))
         if self._announce:
-            self._say(f"{new.time:7.2f} s  {new.state}  {new.reason}".rstrip())
+            self._report(f"{new.time:7.2f} s  {new.state}  {new.reason}".rstrip())
 
-    def _tell_gap(self) -> None:
+    def _record_gap(self) -> None:
         lost, self._lost = self._reader.lost - self._lost, self._reader.lost
         if lost:
             self._status(
@@ -124,8 +124,8 @@ class RingRecorder:
 
     def _close(self, result: str, reason: str) -> Recorded:
         if self._lost:
-            told = f"{self._lost} messages lost: the log was written too slowly"
-            reason = f"{reason}; {told}" if reason else told
+            losses = f"{self._lost} messages lost: the log was written too slowly"
+            reason = f"{reason}; {losses}" if reason else losses
         self._flush()
         self._try(lambda: self._recorder.close(result, reason))
         if self._failure:
@@ -133,7 +133,7 @@ class RingRecorder:
         return Recorded(result, reason, self._kept, self._lost)
 
     def _try(self, write: Callable[[], None]) -> None:
-        """Write unless that has failed before; tell the first failure at once."""
+        """Write unless that has failed before; report the first failure at once."""
         if self._failure:
             return
         try:
@@ -141,11 +141,11 @@ class RingRecorder:
         except OutputError as error:
             self._failure = str(error)
             self._recorder.abandon()
-            self._say(f"{self._latest:7.2f} s  nothing more is recorded: {error}")
+            self._report(f"{self._latest:7.2f} s  nothing more is recorded: {error}")
 
 
-def tell(line: str) -> None:
-    """A line to stderr, if that takes it at once: nobody who fails to read it shall hold up a recording."""
+def report_on_stderr(line: str) -> None:
+    """Write a line to stderr if it takes it at once, so that no reader holds up a recording."""
     _, ready, _ = select.select([], [_STDERR], [], 0.0)
     if ready:
         with suppress(OSError):

@@ -1,32 +1,36 @@
 """The set-point packet for a drive controller, version 1, and the socket that sends one every tick.
 
-A UDP datagram of 176 bytes, little-endian, without padding: all fields lie where a C struct of the
-    same order has them.
+It is a UDP datagram of 176 bytes, little-endian, without padding: all fields lie where a C struct
+of the same order has them.
 
-| offset | type         | field                                                                                            |
-|-------:|--------------|--------------------------------------------------------------------------------------------------|
-|      0 | char[4]      | magic: `ATSP`                                                                                    |
-|      4 | uint8        | version: 1                                                                                       |
-|      5 | uint8        | kind of check: 0 = CRC-32, 1 = keyed BLAKE2s                                                     |
-|      6 | uint8        | state: 0 parked, 1 engaging, 2 running, 3 holding, 4 parking, 5 fault_stopping, 6 stopped        |
-|      7 | uint8        | 0; not looked at                                                                                 |
-|      8 | uint64       | session: a random number, another one each time a loop starts                                    |
-|     16 | uint64       | sequence: strictly increasing within a session                                                   |
-|     24 | int64        | valid from: when the motion below is due, ns on CLOCK_MONOTONIC of the sender                    |
-|     32 | double       | time of the run, s                                                                               |
-|     40 | double[3]    | speed of wheels 1 to 3, rad/s                                                                    |
-|     64 | double[3]    | acceleration of wheels 1 to 3, rad/s^2                                                           |
-|     88 | double[3]    | stage position x, y, z from the centre, m, frame W (x forward, y left, z up)                     |
-|    112 | double[3]    | stage velocity, m/s                                                                              |
-|    136 | double[3]    | stage acceleration, m/s^2                                                                        |
-|    160 | uint8[16]    | check of bytes 0 to 159                                                                          |
+| offset | type      | field                                                                       |
+|-------:|-----------|-----------------------------------------------------------------------------|
+|      0 | char[4]   | magic: `ATSP`                                                               |
+|      4 | uint8     | version: 1                                                                  |
+|      5 | uint8     | kind of check: 0 = CRC-32, 1 = keyed BLAKE2s                                |
+|      6 | uint8     | state: 0 parked, 1 engaging, 2 running, 3 holding, 4 parking,               |
+|        |           | 5 fault_stopping, 6 stopped                                                 |
+|      7 | uint8     | 0; not looked at                                                            |
+|      8 | uint64    | session: a random number, another one each time a loop starts               |
+|     16 | uint64    | sequence: strictly increasing within a session                              |
+|     24 | int64     | valid from: when the motion below is due, ns on the sender's                |
+|        |           | CLOCK_MONOTONIC                                                             |
+|     32 | double    | time of the run, s                                                          |
+|     40 | double[3] | speed of wheels 1 to 3, rad/s                                               |
+|     64 | double[3] | acceleration of wheels 1 to 3, rad/s^2                                      |
+|     88 | double[3] | stage position x, y, z from the centre, m, frame W (x forward, y left,      |
+|        |           | z up)                                                                       |
+|    112 | double[3] | stage velocity, m/s                                                         |
+|    136 | double[3] | stage acceleration, m/s^2                                                   |
+|    160 | uint8[16] | check of bytes 0 to 159                                                     |
 
-Check 0: the CRC-32 of zlib, PNG and Ethernet as a uint32, then 12 zeros; it finds damage, not
-    forgery, and is for loopback.
-Check 1: BLAKE2s (RFC 7693) with a shared key of 16 to 32 bytes, a digest of 16 bytes, no salt and
-no personalisation. Who has a key takes nothing but check 1. The key keeps out forged packets, and
-session and sequence replayed ones; but a receiver that has just been reset and has not heard its
-loop yet cannot tell an old session from a new one, except by its valid-from.
+Check 0 is the CRC-32 of zlib, PNG and Ethernet as a uint32, then 12 zeros; it finds damage, not
+forgery, and is for loopback.
+Check 1 is BLAKE2s (RFC 7693) with a shared key of 16 to 32 bytes, a digest of 16 bytes, no salt and
+no personalisation. A receiver with a key takes nothing but check 1. The key keeps out forged
+packets, and session and sequence replayed ones; but a receiver that has just been reset and has not
+received anything from its loop yet cannot distinguish an old session from a new one, except by its
+valid-from.
 
 A receiver refuses a packet of another size, magic, version or state, with a wrong check or a number
 that is not finite, with a sequence or a valid-from that does not increase, or of another sender or
@@ -42,10 +46,14 @@ from dataclasses import dataclass
 from hashlib import blake2s
 from math import isfinite
 from struct import Struct
+from typing import TypeAlias
 
 from ...errors import InputError, SetPointError
 from ...signals import LIVE_STATES
-from ..control.guard import Command
+from ..control.command import Command
+
+Address: TypeAlias = tuple[str, int]
+"""Host and port of a sender."""
 
 VERSION = 1
 CRC32, BLAKE2S = 0, 1
@@ -59,7 +67,13 @@ SIZE = _content.size + _CHECK
 
 @dataclass(frozen=True, slots=True)
 class SetPoint:
-    """A packet's content: `valid_from` in s on the sender's CLOCK_MONOTONIC, `state` by its name, the command with its time."""
+    """The content of a packet.
+
+    session, sequence: as in the packet.
+    valid_from: when the command is due, s on the sender's CLOCK_MONOTONIC.
+    state: by its name.
+    command: motion of the drives, with the time of the run.
+    """
 
     session: int
     sequence: int
@@ -77,7 +91,17 @@ def encode(
     command: Command,
     key: bytes = b"",
 ) -> bytes:
-    """The packet; `time` of the run and `valid_from` in s, `state` the place in LIVE_STATES, no key for CRC-32."""
+    """Return the packet.
+
+    Args:
+        session: random number of the sender's run.
+        sequence: number of the packet.
+        time: of the run, s.
+        valid_from: when the command is due, s on CLOCK_MONOTONIC.
+        state: place of the state in LIVE_STATES.
+        command: motion of the drives.
+        key: shared with the receiver; empty for CRC-32.
+    """
     c = command
     content = _content.pack(
         *(
@@ -96,7 +120,7 @@ def encode(
 
 
 def decode(packet: bytes, key: bytes = b"") -> SetPoint:
-    """The content of a packet.
+    """Return the content of a packet, with the shared key if there is one.
 
     Raises SetPointError for a wrong size, magic, version, check, state or number.
     """
@@ -135,7 +159,7 @@ def decode(packet: bytes, key: bytes = b"") -> SetPoint:
 class SetPointSender:
     """Sends set points to one receiver and never waits for it.
 
-    unsent: packets that the kernel did not take: its buffer was full, or nobody listens there.
+    unsent: packets that the kernel did not take: its buffer was full, or there is no receiver.
     """
 
     def __init__(self, host: str, port: int, key: bytes = b"") -> None:
@@ -159,22 +183,21 @@ class SetPointSender:
     def send(
         self, sequence: int, time: float, valid_from: float, state: int, command: Command
     ) -> None:
-        """Send one; see `encode`. What cannot be sent at once is not sent at all."""
+        """Send one set point, see `encode`; what cannot be sent at once is not sent at all."""
         packet = encode(self._session, sequence, time, valid_from, state, command, self._key)
         try:
             self._socket.send(packet)
         except OSError:
-            # BlockingIOError: the buffer is full; ConnectionRefusedError: nobody took the one
-            # before
+            # BlockingIOError: the buffer is full; ConnectionRefusedError: there is no receiver
             self.unsent += 1
 
     def close(self) -> None:
-        """Let go of the socket."""
+        """Close the socket."""
         self._socket.close()
 
 
 def check_key(key: bytes) -> None:
-    """Raises InputError for a key that is too short or too long; none at all is good."""
+    """Raise InputError for a key that is too short or too long; an empty one means none."""
     if key and not SHORTEST_KEY <= len(key) <= LONGEST_KEY:
         raise InputError(
             f"shared key of {len(key)} bytes, allowed: {SHORTEST_KEY} <= bytes <= {LONGEST_KEY}"

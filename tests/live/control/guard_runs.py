@@ -2,7 +2,8 @@
 
 from dataclasses import fields, replace
 
-from atlas_cueing.live.control.guard import Command, Guard
+from atlas_cueing.live.control.command import Command
+from atlas_cueing.live.control.guard import Guard
 
 from .guard_states import STAGE, WHEELS, coast, command
 

@@ -10,7 +10,8 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from atlas_cueing.live.control.guard import Command, Guard
+from atlas_cueing.live.control.command import Command
+from atlas_cueing.live.control.guard import Guard
 from atlas_cueing.rotation import ZERO
 from atlas_cueing.signals import StageLimits, WheelLimits
 

@@ -22,9 +22,9 @@ def test_nothing_moves_before_a_second_of_good_input() -> None:
     rig.press("engage")
     rig.fly(3.0)
     assert rig.state is State.ENGAGING
-    assert not rig.ride.blending
+    assert not rig.platform.tracking
     rig.source.quiet = False
-    assert 0.99 <= rig.until(lambda: rig.ride.blending, 2.0) <= 1.03
+    assert 0.99 <= rig.until(lambda: rig.platform.tracking, 2.0) <= 1.03
     assert 2.9 <= rig.until(State.RUNNING, 6.0) <= 5.1
 
 
@@ -35,7 +35,7 @@ def test_trouble_while_waiting_makes_it_wait_again() -> None:
     rig.source.jumps = True
     rig.tick()
     assert rig.state is State.ENGAGING
-    assert 0.99 <= rig.until(lambda: rig.ride.blending, 2.0) <= 1.03
+    assert 0.99 <= rig.until(lambda: rig.platform.tracking, 2.0) <= 1.03
 
 
 def test_a_sources_own_time_goes_on_only_while_running() -> None:
@@ -79,7 +79,7 @@ def test_unknown_buttons_do_nothing() -> None:
     rig.press("explode", "")
     rig.fly(0.1)
     assert rig.state is State.PARKED
-    assert rig.conductor.ended.faults == 0
+    assert rig.controller.outcome.faults == 0
 
 
 @pytest.mark.parametrize("attended", [False, True])
@@ -89,15 +89,15 @@ def test_a_source_that_is_broken_for_good_does_not_keep_the_run_from_ending(atte
     rig.tick()
     assert rig.state is State.FAULT_STOPPING
     rig.until(State.STOPPED, 2.0)
-    assert rig.conductor.over != attended
+    assert rig.controller.over != attended
     rig.wanted.signals = 1
     rig.tick()
-    assert rig.conductor.over
-    assert (rig.conductor.ended.result, rig.conductor.ended.reason) == (
+    assert rig.controller.over
+    assert (rig.controller.outcome.result, rig.controller.outcome.reason) == (
         "fault",
         "RuntimeError: gone",
     )
-    assert rig.conductor.ended.faults == 1
+    assert rig.controller.outcome.faults == 1
     assert rig.excess() <= ROUNDING
 
 
@@ -107,7 +107,7 @@ def test_a_reset_with_a_broken_source_is_a_fault_again() -> None:
     rig.press("reset")
     rig.tick()
     rig.until(State.STOPPED, 2.0)
-    assert rig.conductor.ended.faults == 2
+    assert rig.controller.outcome.faults == 2
 
 
 def test_the_vehicle_in_the_log_stays_where_it_was_when_a_source_breaks() -> None:
@@ -126,18 +126,18 @@ def test_a_vehicle_that_fails_ends_the_run_parked() -> None:
     rig.source.raises = VehicleError(1.25, "diverged")
     rig.tick()
     assert rig.state is State.PARKING
-    rig.until(lambda: rig.conductor.over, 10.0)
-    assert (rig.conductor.ended.result, rig.conductor.ended.faults) == ("vehicle_failed", 0)
-    assert rig.conductor.ended.reason == "vehicle failed at 1.250 s: diverged"
-    assert rig.conductor.ended.dropped == 2
+    rig.until(lambda: rig.controller.over, 10.0)
+    assert (rig.controller.outcome.result, rig.controller.outcome.faults) == ("vehicle_failed", 0)
+    assert rig.controller.outcome.reason == "vehicle failed at 1.250 s: diverged"
+    assert rig.controller.outcome.dropped == 2
 
 
 def test_the_end_of_the_flight_is_the_end_of_the_run() -> None:
     rig = rig_in(State.RUNNING, attended=False)
     rig.source.over = True
-    rig.until(lambda: rig.conductor.over, 10.0)
+    rig.until(lambda: rig.controller.over, 10.0)
     assert rig.state is State.PARKED
-    assert rig.conductor.ended.result == "ok"
+    assert rig.controller.outcome.result == "ok"
     assert rig.tape.statuses[-2][2] == "the run is over"
 
 
@@ -145,8 +145,8 @@ def test_a_duration_parks() -> None:
     rig = Rig(settings=QUICK, attended=False, duration=7.0)
     rig.press("engage")
     assert 7.0 <= rig.until(State.PARKING, 8.0) <= 7.02
-    rig.until(lambda: rig.conductor.over, 10.0)
-    assert rig.conductor.ended.result == "ok"
+    rig.until(lambda: rig.controller.over, 10.0)
+    assert rig.controller.outcome.result == "ok"
 
 
 def test_input_lost_ends_an_unattended_run_and_not_an_attended_one() -> None:
@@ -154,8 +154,8 @@ def test_input_lost_ends_an_unattended_run_and_not_an_attended_one() -> None:
         rig = rig_in(State.RUNNING, attended=attended)
         rig.source.quiet = True
         rig.until(State.PARKED, 12.0)
-        assert rig.conductor.over != attended
-        assert rig.conductor.ended.result == ("ok" if attended else "input_lost")
+        assert rig.controller.over != attended
+        assert rig.controller.outcome.result == ("ok" if attended else "input_lost")
     rig.source.quiet = False
     rig.press("engage")
     rig.until(State.RUNNING, 8.0)
@@ -165,7 +165,7 @@ def test_what_was_dropped_is_counted() -> None:
     rig = rig_in(State.RUNNING)
     rig.source.bad = 2
     rig.fly(0.1)
-    assert rig.conductor.ended.dropped == 2
+    assert rig.controller.outcome.dropped == 2
     assert rig.state is State.RUNNING
 
 
@@ -174,9 +174,9 @@ def test_the_first_reason_is_the_one_that_is_kept() -> None:
     rig.source.raises = VehicleError(1.0, "diverged")
     rig.tick()
     rig.tick(lateness=0.5)
-    rig.until(lambda: rig.conductor.over, 2.0)
-    assert rig.conductor.ended.result == "vehicle_failed"
-    assert rig.conductor.ended.faults == 1
+    rig.until(lambda: rig.controller.over, 2.0)
+    assert rig.controller.outcome.result == "vehicle_failed"
+    assert rig.controller.outcome.faults == 1
 
 
 def test_a_vehicle_of_the_other_sign_does_not_tear_the_log() -> None:

@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from atlas_cueing.live.control.guard import Command, Guard, _Stop
+from atlas_cueing.live.control.command import Command
+from atlas_cueing.live.control.guard import Guard, _Stop
 from atlas_cueing.smoothing import Stop
 
 from .guard_states import (

@@ -10,7 +10,8 @@ import pytest
 from smoothing.cues import wild
 from smoothing.platforms import PLATFORMS
 
-from atlas_cueing.live.control.guard import Command, Guard
+from atlas_cueing.live.control.command import Command
+from atlas_cueing.live.control.guard import Guard
 from atlas_cueing.rotation import ZERO, apply
 from atlas_cueing.run import build_pipeline
 from atlas_cueing.scenario import load_scenario

@@ -12,9 +12,8 @@ from atlas_cueing.live.control.input_monitor import (
     STALE,
     InputMonitor,
 )
-from atlas_cueing.live.control.platform_controller import no_vehicle
 from atlas_cueing.live.control.state_machine import Event, State
-from atlas_cueing.live.input.source import SourceReading
+from atlas_cueing.live.input.source import SourceReading, no_vehicle
 
 GOOD = SourceReading(no_vehicle(0.0), 0.0, 0, 0, False, False, "")
 NOTHING = SourceReading(None, inf, 0, 0, False, False, "")
@@ -28,12 +27,12 @@ TROUBLES = {
 
 
 def test_the_numbers_of_the_specification() -> None:
-    from atlas_cueing.live.control import input_monitor as supervisor
+    from atlas_cueing.live.control import input_monitor as monitor
 
     assert (STALE, LOST, BAD_SAMPLES, GOOD_TO_RESUME) == (0.1, 1.0, 3, 0.5)
-    assert supervisor.GOOD_TO_ENGAGE == 1.0
-    assert 3.0 <= supervisor.ENGAGE_TIME <= 5.0
-    assert supervisor.RESUME_TIME == 1.0
+    assert monitor.GOOD_TO_ENGAGE == 1.0
+    assert 3.0 <= monitor.ENGAGE_TIME <= 5.0
+    assert monitor.RESUME_TIME == 1.0
 
 
 @pytest.mark.parametrize("state", State)
@@ -49,9 +48,9 @@ def test_trouble_stops_what_follows_the_cue(state: State, trouble: str, moving: 
 
 @pytest.mark.parametrize("state", State)
 def test_good_input_says_nothing(state: State) -> None:
-    supervisor = InputMonitor()
+    monitor = InputMonitor()
     for k in range(200):
-        events = supervisor.watch(0.01 * k, state, True, GOOD)
+        events = monitor.watch(0.01 * k, state, True, GOOD)
         assert events == []
 
 
@@ -65,8 +64,8 @@ def test_what_is_borne(age: float, bad: int) -> None:
 
 def test_each_trouble_is_told_with_its_reason() -> None:
     reasons = {
-        name: InputMonitor().watch(1.0, State.RUNNING, True, intake)[0][1]
-        for name, intake in TROUBLES.items()
+        name: InputMonitor().watch(1.0, State.RUNNING, True, reading)[0][1]
+        for name, reading in TROUBLES.items()
     }
     assert reasons == {
         "stale": "no input for 0.10 s",
@@ -77,23 +76,23 @@ def test_each_trouble_is_told_with_its_reason() -> None:
 
 
 def test_good_for_counts_from_the_last_trouble() -> None:
-    supervisor = InputMonitor()
-    assert supervisor.good_for(5.0) == 0.0
-    for time, intake, good in (
+    monitor = InputMonitor()
+    assert monitor.good_for(5.0) == 0.0
+    for time, reading, good in (
         (1.0, GOOD, 0.0),
         (1.5, GOOD, 0.5),
         (1.6, TROUBLES["jump"], 0.0),
         (1.7, GOOD, 0.0),
         (2.0, GOOD, 0.3),
     ):
-        supervisor.watch(time, State.PARKED, False, intake)
-        assert supervisor.good_for(time) == pytest.approx(good)
+        monitor.watch(time, State.PARKED, False, reading)
+        assert monitor.good_for(time) == pytest.approx(good)
 
 
-def ready(supervisor: InputMonitor, *, moving: bool = False, seconds: float = 2.0) -> float | None:
+def ready(monitor: InputMonitor, *, moving: bool = False, seconds: float = 2.0) -> float | None:
     """When a hold is said to be over, s after its beginning."""
     for k in range(round(100 * seconds)):
-        if (Event.READY, "input is good again") in supervisor.watch(
+        if (Event.READY, "input is good again") in monitor.watch(
             3.0 + 0.01 * k, State.HOLDING, moving, GOOD
         ):
             return 0.01 * k
@@ -106,16 +105,16 @@ def test_a_hold_ends_after_half_a_second_of_good_input_at_rest() -> None:
 
 
 def test_an_operators_hold_does_not_end_by_itself() -> None:
-    supervisor = InputMonitor()
-    supervisor.held = True
-    assert ready(supervisor) is None
+    monitor = InputMonitor()
+    monitor.held = True
+    assert ready(monitor) is None
 
 
 @pytest.mark.parametrize("held", [False, True])
 def test_a_hold_waits_a_second_for_input(held: bool) -> None:
-    supervisor = InputMonitor()
-    supervisor.held = held
-    assert supervisor.watch(1.0, State.HOLDING, False, replace(GOOD, age=LOST)) == []
-    assert supervisor.watch(1.1, State.HOLDING, True, replace(GOOD, age=LOST + 0.01)) == [
+    monitor = InputMonitor()
+    monitor.held = held
+    assert monitor.watch(1.0, State.HOLDING, False, replace(GOOD, age=LOST)) == []
+    assert monitor.watch(1.1, State.HOLDING, True, replace(GOOD, age=LOST + 0.01)) == [
         (Event.LOST, "no input for 1.01 s")
     ]

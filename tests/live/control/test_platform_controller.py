@@ -6,8 +6,9 @@ from scipy.spatial.transform import Rotation
 
 from atlas_cueing.cueing import CAUSAL_METHODS
 from atlas_cueing.errors import PlanningError
-from atlas_cueing.live.control.platform_controller import command_of, no_vehicle, standing
+from atlas_cueing.live.control.command import command_of, standstill
 from atlas_cueing.live.control.state_machine import Event, State
+from atlas_cueing.live.input.source import no_vehicle
 from atlas_cueing.rotation import IDENTITY, ZERO, exp, geodesic
 from atlas_cueing.signals import Cue, Motion, VehicleState
 
@@ -27,20 +28,20 @@ def signs(q: np.ndarray) -> float:
 def test_it_starts_parked_at_rest_upright_in_the_centre() -> None:
     rig = Rig()
     assert rig.state is State.PARKED
-    assert not rig.ride.blending
-    assert not rig.ride.moving
-    assert rig.ride.fresh
+    assert not rig.platform.tracking
+    assert not rig.platform.moving
+    assert rig.platform.needs_cueing
     assert rig.motion == Motion(0.0, IDENTITY, ZERO, ZERO, ZERO, ZERO, ZERO, (0.0, 0.0))
-    assert command_of(rig.ride.step(no_vehicle(rig.dt))) == standing(rig.motion)
+    assert command_of(rig.platform.step(no_vehicle(rig.dt))) == standstill(rig.motion)
 
 
 def test_an_event_without_a_way_changes_nothing() -> None:
     rig = Rig()
-    assert not rig.ride.handle(Event.RESET)
-    assert rig.ride.handle(Event.ENGAGE)
-    assert not rig.ride.handle(Event.ENGAGE)
+    assert not rig.platform.handle(Event.RESET)
+    assert rig.platform.handle(Event.ENGAGE)
+    assert not rig.platform.handle(Event.ENGAGE)
     assert rig.state is State.ENGAGING
-    assert not rig.ride.moving  # it has not set out yet
+    assert not rig.platform.moving  # it has not set out yet
 
 
 @pytest.mark.parametrize("method", CAUSAL_METHODS)
@@ -54,7 +55,7 @@ def test_there_and_back_with_every_method(method: str, platform: str) -> None:
         rate=0.3,
     )
     rig.bring_to(State.HOLDING)
-    rig.until(lambda: not rig.ride.moving, 3.0)
+    rig.until(lambda: not rig.platform.moving, 3.0)
     rig.press("engage")
     rig.until(State.RUNNING, 8.0)
     rig.press("park")
@@ -62,7 +63,7 @@ def test_there_and_back_with_every_method(method: str, platform: str) -> None:
     rig.until(State.PARKED, 10.0)
     assert geodesic(rig.motion.q_WS, IDENTITY) < 2e-3
     assert np.hypot.reduce(rig.motion.p_WS_W) < 2e-3
-    assert rig.ride.fresh
+    assert rig.platform.needs_cueing
     rig.press("engage")
     rig.until(State.RUNNING, 8.0)
     assert rig.excess() <= ROUNDING
@@ -127,7 +128,7 @@ def test_the_first_cueing_is_not_built_in_the_tick_that_sets_out() -> None:
     There is one already, at the start and after a reset.
     """
     rig = Rig(0.02)
-    rig.ride._new_pipeline = lambda: pytest.fail("built in a tick")  # type: ignore[assignment]
+    rig.platform._new_pipeline = lambda: pytest.fail("built in a tick")  # type: ignore[assignment]
     rig.bring_to(State.RUNNING)
 
 
@@ -135,11 +136,11 @@ def test_the_first_cueing_is_not_built_in_the_tick_that_sets_out() -> None:
 def test_a_cue_that_is_not_finite_is_refused(bad: float) -> None:
     rig = Rig(settings=QUICK)
     rig.bring_to(State.RUNNING)
-    cueing = rig.ride._cueing
+    cueing = rig.platform._cueing
     assert cueing is not None
     cueing.step = lambda vehicle: Cue(vehicle.time, IDENTITY, (bad, 0.0, 0.0), ZERO, ZERO, ZERO)  # type: ignore[method-assign]
     with pytest.raises(PlanningError, match="not finite"):
-        rig.ride.step(
+        rig.platform.step(
             VehicleState(rig.tape.ticks[-1].motion.time + rig.dt, IDENTITY, ZERO, (0.0, 0.0, -9.8))
         )
 

@@ -8,8 +8,8 @@ from atlas_cueing.live.control.state_machine import (
     TRANSITIONS,
     Event,
     State,
-    after,
     allowed_buttons,
+    next_state,
 )
 from atlas_cueing.signals import LIVE_STATES
 
@@ -51,7 +51,7 @@ def expected(state: State, event: Event) -> State:
 
 @pytest.mark.parametrize(("state", "event"), PAIRS)
 def test_every_pair_of_state_and_event(state: State, event: Event) -> None:
-    assert after(state, event) is expected(state, event)
+    assert next_state(state, event) is expected(state, event)
 
 
 def test_the_table_names_only_what_changes_something() -> None:

@@ -15,7 +15,7 @@ from atlas_cueing.live.control.trajectories import (
     CALM_ACCELERATION,
     CALM_RATE,
     CALM_SPEED,
-    HALT_TIME,
+    STOP_TIME,
     EngageTrajectory,
     FollowTrajectory,
     HoldTrajectory,
@@ -143,14 +143,14 @@ def test_follow_is_the_cue_and_stay_is_a_place() -> None:
 @given(quaternions, rates, places, rates)
 def test_a_halt_fades_every_rate_out(q: Quat, w: Vec3, p: Vec3, v: Vec3) -> None:
     halt = StopTrajectory(motion(q, w, p, v), DT, (5.0, 5.0, 5.0))
-    cues = drive(halt, HALT_TIME + 2 * DT)
+    cues = drive(halt, STOP_TIME + 2 * DT)
     check_derivatives(cues)
     assert halt.arrived
     end = cues[-1]
     assert (end.w_WS_W, end.v_WS_W, end.a_WS_W) == (ZERO, ZERO, ZERO)
-    assert geodesic(end.q_WS, multiply(exp(scale(0.5 * HALT_TIME, w)), q)) < 1e-9
+    assert geodesic(end.q_WS, multiply(exp(scale(0.5 * STOP_TIME, w)), q)) < 1e-9
     assert end.p_WS_W == pytest.approx(
-        [x + 0.5 * HALT_TIME * y for x, y in zip(p, v, strict=True)], abs=1e-12
+        [x + 0.5 * STOP_TIME * y for x, y in zip(p, v, strict=True)], abs=1e-12
     )
     turn = [norm(cue.w_WS_W) for cue in cues]
     assert all(after <= before + 1e-12 for before, after in pairwise(turn))
@@ -158,7 +158,7 @@ def test_a_halt_fades_every_rate_out(q: Quat, w: Vec3, p: Vec3, v: Vec3) -> None
 
 def test_a_halt_has_not_arrived_before_its_time() -> None:
     halt = StopTrajectory(motion(w=(1.0, 0.0, 0.0)), DT, TRAVEL)
-    drive(halt, HALT_TIME - 2 * DT)
+    drive(halt, STOP_TIME - 2 * DT)
     assert not halt.arrived
 
 
@@ -166,14 +166,14 @@ def test_a_halt_has_not_arrived_before_its_time() -> None:
 @given(places, rates)
 def test_a_halt_stays_inside_the_travel(p: Vec3, v: Vec3) -> None:
     """But for its first millisecond, at the very end of the travel."""
-    for cue in drive(StopTrajectory(motion(p=p, v=v), DT, TRAVEL), HALT_TIME, dt=0.01):
+    for cue in drive(StopTrajectory(motion(p=p, v=v), DT, TRAVEL), STOP_TIME, dt=0.01):
         assert all(abs(x) <= limit + 1.5e-3 for x, limit in zip(cue.p_WS_W, TRAVEL, strict=True))
 
 
 @pytest.mark.parametrize("place", [0.999, 1.0, 1.0 + 1e-12])
 def test_a_halt_at_the_rail(place: float) -> None:
     cues = drive(
-        StopTrajectory(motion(p=(place, 0.0, 0.0), v=(1.0, 0.0, 0.0)), DT, TRAVEL), HALT_TIME + DT
+        StopTrajectory(motion(p=(place, 0.0, 0.0), v=(1.0, 0.0, 0.0)), DT, TRAVEL), STOP_TIME + DT
     )
     assert np.all(np.isfinite(columns(cues)[4]))
     assert abs(cues[-1].p_WS_W[0] - 1.0) < 1e-3

@@ -37,10 +37,10 @@ def test_bad_packets_are_dropped_and_change_nothing(bad: bytes) -> None:
         each.send(every(1.0 + 1.0 / RATE, 2.0))
     for k in range(3):
         ride.port._waiting.appendleft((1.002 + 0.002 * k, bad, SIMULATOR))
-        intake = ride.read(1.002 + 0.002 * k)
-        assert (intake.dropped, intake.bad_in_a_row, intake.jumped) == (1, k + 1, False)
-        assert intake.reason
-        assert intake.vehicle == undisturbed.read(1.002 + 0.002 * k).vehicle
+        reading = ride.read(1.002 + 0.002 * k)
+        assert (reading.dropped, reading.bad_in_a_row, reading.jumped) == (1, k + 1, False)
+        assert reading.reason
+        assert reading.vehicle == undisturbed.read(1.002 + 0.002 * k).vehicle
     later = ride.until(2.0, 1.006)
     assert later[-1].bad_in_a_row == 0
     assert states(later) == states(undisturbed.until(2.0, 1.006))
@@ -54,9 +54,9 @@ def test_out_of_order_and_replayed_packets_are_dropped() -> None:
         if k >= 60 and k % 10 == 0:
             ride.port.send(packet_of(ride.motion.at(t - 0.5)), t + 0.004)
     got = ride.until(3.0)
-    assert sum(intake.dropped for intake in got) == 12
-    assert max(intake.bad_in_a_row for intake in got) == 1
-    assert not any(intake.jumped for intake in got)
+    assert sum(reading.dropped for reading in got) == 12
+    assert max(reading.bad_in_a_row for reading in got) == 1
+    assert not any(reading.jumped for reading in got)
     flown = states(got)[250:]
     assert float(np.max(angles(flown, [ride.motion.at(s.time) for s in flown]))) < 0.01
 
@@ -67,18 +67,20 @@ def test_a_copy_right_behind_is_dropped() -> None:
         ride.send([t])
         ride.send([t], delay=0.001)
     got = ride.until(1.0)
-    assert sum(intake.dropped for intake in got) == 60
-    assert {intake.reason for intake in got if intake.dropped} == {"a copy of the packet before it"}
-    assert not any(intake.jumped for intake in got)
+    assert sum(reading.dropped for reading in got) == 60
+    assert {reading.reason for reading in got if reading.dropped} == {
+        "a copy of the packet before it"
+    }
+    assert not any(reading.jumped for reading in got)
 
 
 def test_work_is_bounded_in_a_flood() -> None:
     ride = Ride()
     for k in range(1000):
         ride.port.send(b"flood", 0.0001 * k)
-    intake = ride.read(1.0)
+    reading = ride.read(1.0)
     assert ride.port.received == MAX_PACKETS
-    assert intake.dropped == intake.bad_in_a_row == MAX_PACKETS
+    assert reading.dropped == reading.bad_in_a_row == MAX_PACKETS
 
 
 def test_a_stranger_is_not_heard_after_pinning() -> None:
@@ -93,9 +95,9 @@ def test_a_stranger_is_not_heard_after_pinning() -> None:
         ride.port.send(packet_of(ride.motion.at(t + 2.0)), t + 0.003, STRANGER)
         ride.port.send(b"nonsense", t + 0.004, STRANGER)
     got = ride.until(2.0, 1.0)
-    assert sum(intake.dropped for intake in got) == 120
-    assert not any(intake.bad_in_a_row or intake.jumped for intake in got)
-    assert any("40001" in intake.reason and "40000" in intake.reason for intake in got)
+    assert sum(reading.dropped for reading in got) == 120
+    assert not any(reading.bad_in_a_row or reading.jumped for reading in got)
+    assert any("40001" in reading.reason and "40000" in reading.reason for reading in got)
     assert float(np.max(angles(states(got), [ride.motion.at(s.time) for s in states(got)]))) < 0.01
 
 
@@ -128,8 +130,8 @@ def test_whatever_comes_the_state_stays_believable(
         content = what if isinstance(what, bytes) else packet_of(ride.motion.at(time + (what or 0)))
         ride.port.send(content, time)
     wide = Bounds(force=1e4, rate=60.0)
-    for intake in ride.until(time + 0.3, loop_hz=100.0):
-        assert intake.dropped >= 0
-        if intake.vehicle is not None:
-            assert wide.objection(intake.vehicle, 0.0) == ""
-            assert 0.0 <= intake.age < inf
+    for reading in ride.until(time + 0.3, loop_hz=100.0):
+        assert reading.dropped >= 0
+        if reading.vehicle is not None:
+            assert wide.objection(reading.vehicle, 0.0) == ""
+            assert 0.0 <= reading.age < inf

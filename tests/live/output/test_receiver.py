@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from atlas_cueing.errors import InputError
-from atlas_cueing.live.control.guard import Command
+from atlas_cueing.live.control.command import Command
 from atlas_cueing.live.output.receiver import WATCHDOG_S, SetPointReceiver
 from atlas_cueing.live.output.setpoint import SIZE, SetPointSender, encode
 from atlas_cueing.rotation import Vec3

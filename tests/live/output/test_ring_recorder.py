@@ -127,7 +127,7 @@ class TestTheLog:
     ) -> None:
         """A thousand ticks in one step, and a disk that is full after some chunks of them."""
         ring = live_ring(2.0, 1000.0)
-        recorder = RingRecorder(ring, live_recorder(path), say=lambda _: None)
+        recorder = RingRecorder(ring, live_recorder(path), report=lambda _: None)
         writer = LiveWriter(ring)
         for k in range(1000):
             writer.tick(*live_tick(k / RATE))
@@ -179,7 +179,7 @@ def following(
     return (
         ring,
         LiveWriter(ring),
-        RingRecorder(ring, live_recorder(path), announce=announce, say=say),
+        RingRecorder(ring, live_recorder(path), announce=announce, report=say),
     )
 
 
