@@ -1,4 +1,4 @@
-"""All runs of a batch on one page for a browser, without anything from elsewhere."""
+"""One page for a browser with all runs of a batch, in one file that needs nothing else."""
 
 from collections import Counter
 from collections.abc import Collection, Sequence

@@ -1,4 +1,4 @@
-"""Where pages for the browser may go."""
+"""Check of the files into which pages for the browser are written."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -7,7 +7,10 @@ from pathlib import Path
 def check_pages(
     files: Sequence[Path | None], *, inputs: Sequence[Path], force: bool
 ) -> list[Path | None]:
-    """Find out where pages go, by `batch.check_output`; None stands for one that is not asked for.
+    """Check where pages are written, by `run.check_output`.
+
+    files: one for each page, None for a page that is not written; inputs: files that must not be
+    replaced; force: whether pages may be replaced. Gives the checked paths in the same order.
 
     Raises OutputError when one cannot be written, or exists and may not be replaced.
     """

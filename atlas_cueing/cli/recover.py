@@ -1,4 +1,4 @@
-"""`atlas-cueing recover`: what is whole in a broken log."""
+"""`atlas-cueing recover`: a finished log from a broken one."""
 
 from pathlib import Path
 from typing import Annotated
@@ -29,8 +29,8 @@ def recover_command(
 ) -> None:
     """Save what is whole in a broken log.
 
-    Every complete chunk of a cut or damaged log goes into a new, finished one; what was lost is
-    said.
+    Every complete chunk of a cut or damaged log goes into a new, finished one, and losses are
+    reported.
 
     Exit status 0: written. 1: nothing in it can be recovered. 2: bad usage, nothing was written.
     """

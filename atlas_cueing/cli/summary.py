@@ -9,7 +9,7 @@ import typer
 from ..wheels import headroom
 from .text import aligned, say
 
-if TYPE_CHECKING:  # what is shown has been loaded by whoever made it
+if TYPE_CHECKING:  # loaded already when there is something to print
     from ..rotation import Mat3, Vec3
     from ..run import LiveFigures, RunResult
     from ..scenario import Platform

@@ -1,4 +1,4 @@
-"""What smoothing did to the cue, and what the actuators had to do."""
+"""Lag of the motion behind the cue, limited ticks, and peaks of the actuators."""
 
 from copy import copy
 
@@ -19,7 +19,7 @@ _LARGEST = {
 
 
 class Actuation:
-    """What smoothing did to the cue, and what the actuators had to do.
+    """Effect of smoothing on the cue, and load of the actuators.
 
     - cue_lag_..._rad, cue_lag_..._m: angle and distance from the cue to the motion, rms and
       maximum;

@@ -1,4 +1,4 @@
-"""What turning does to the rider: net turns and cross-coupling."""
+"""Net turns of the cabin, and the cross-coupling that they give a nodding head."""
 
 from math import tau
 

@@ -12,8 +12,8 @@ WINDOW = 0.5
 motion; at most a quarter of the record, so that most of it is compared at any shift."""
 
 MOST = 8192
-"""Ticks that a delay is looked for at most: `WINDOW` up to 16 kHz, and bounded memory whatever rate
-    a log claims."""
+"""Largest delay that is looked for, ticks: `WINDOW` up to 16 kHz. It bounds the memory for a log
+with any step."""
 
 # values, at least; the sum of the spectra of pieces is the spectrum of the sum
 _TRANSFORM = 1 << 13

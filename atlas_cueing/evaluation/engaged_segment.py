@@ -1,6 +1,6 @@
-"""The part of a live run that is worth figures.
+"""The part of a live run in which the platform follows the vehicle.
 
-A parked platform does not follow its vehicle, and is not meant to.
+Only this part has metrics: a parked platform is not meant to follow.
 """
 
 from collections.abc import Sequence

@@ -7,7 +7,7 @@ from .units import Unit, in_words
 
 
 class Shown(Flag):
-    """Where a metric is shown, beside those places that show every metric.
+    """Places that show a metric, beside those that show every metric.
 
     Every metric is in `--json`, in `compare`, in the tables of a batch and under "Every figure" of
     a page.

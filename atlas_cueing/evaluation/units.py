@@ -1,7 +1,7 @@
-"""Units: how a number in SI, rad or a share is shown to people.
+"""Units: how numbers in SI, rad or shares are shown to people.
 
-A name of this project ends in the unit of its number (`force_rms_m_s2`, `align_rate_deg_s`), a
-person is shown degrees, percent and metres. Both are said here and nowhere else.
+Names in this project end in the unit of their number (`force_rms_m_s2`, `align_rate_deg_s`), but
+people are shown degrees and percent. The units and their conversions are defined here only.
 """
 
 from dataclasses import dataclass
@@ -88,5 +88,5 @@ def typeset(symbol: str) -> str:
 
 
 def is_number(value: Any) -> bool:
-    """Whether the value is a finite number, which a truth value is not."""
+    """Whether the value is a finite number; a truth value is not."""
     return isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)

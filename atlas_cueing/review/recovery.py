@@ -19,7 +19,7 @@ from .recorded_run import largest_content
 
 @dataclass(frozen=True, slots=True)
 class Recovered:
-    """What was recovered.
+    """A recovered log and its losses.
 
     log: the log written; ticks, seconds: ticks in it and the time they cover; lost: a line for each
     loss.

@@ -169,7 +169,7 @@ def _table(rows: Sequence[tuple[str, str]]) -> str:
 
 
 def _every_metric(heads: Sequence[str], columns: Sequence[dict[str, float]]) -> str:
-    """All metrics, one column a log, folded away."""
+    """A table of all metrics, one column a log, folded away."""
     found = [metric for metric in DECLARED.values() if _has(metric, columns)]
     table = _columns(heads, found, columns)
     return f"<details><summary>{len(found)} figures</summary>{table}</details>"
@@ -182,7 +182,7 @@ def _has(metric: Metric, columns: Sequence[dict[str, float]]) -> bool:
 def _columns(
     heads: Sequence[str], metrics: Sequence[Metric], columns: Sequence[dict[str, float]]
 ) -> str:
-    """Those of the metrics that any log has, one column a log; their definitions are tooltips."""
+    """A table of the metrics that any log has, a column for each; definitions are tooltips."""
     rows = [f"<tr><th></th>{''.join(f'<th>{html_text(head)}</th>' for head in heads)}</tr>"]
     for metric in metrics:
         if not _has(metric, columns):

@@ -32,6 +32,10 @@ class MethodTable(ScenarioTable):
         """Parameters of the method, SI."""
         return self.declaration.with_values(dict(self))
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle by the method's name: classes made at run time have none that imports."""
+        return _unpickled, (self.declaration.name, self.model_dump(exclude_unset=True))
+
     def stage_parameters(self) -> StageParameters:
         """Parameters of the stage, SI, for a method that has one beside it."""
         values = dict(self)
@@ -83,6 +87,10 @@ def _field(parameter: Parameter, defaults: object) -> tuple[Any, Any]:
 TABLES: dict[str, type[MethodTable]] = {
     name: _method_table(method) for name, method in METHODS.items()
 }
+
+
+def _unpickled(method: str, values: dict[str, Any]) -> MethodTable:
+    return TABLES[method].model_validate(values)
 
 
 def _method_of(value: Any) -> Any:

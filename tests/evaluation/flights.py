@@ -66,7 +66,7 @@ def smooth(random: np.random.Generator, count: int, width: int) -> np.ndarray:
     )
 
 
-def any_flight(count: int, seed: int, dt: float = 0.01) -> RunColumns:
+def any_flight(count: int, seed: int) -> RunColumns:
     """Everything moves, the platform after the vehicle; limits come and go."""
     random = np.random.default_rng(seed)
     vectors = {
@@ -85,4 +85,4 @@ def any_flight(count: int, seed: int, dt: float = 0.01) -> RunColumns:
         q = smooth(random, count, 4) + np.array([1.0, 0.0, 0.0, 0.0])
         quaternions[name] = q / np.linalg.norm(q, axis=1, keepdims=True)
     limited = (smooth(random, count, 2) > 0.1).astype(np.float64)
-    return still(count, dt, limited=limited, **vectors, **quaternions)
+    return still(count, 0.01, limited=limited, **vectors, **quaternions)

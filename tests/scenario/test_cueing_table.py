@@ -1,3 +1,4 @@
+import pickle
 from math import degrees, inf
 from typing import Any
 
@@ -31,6 +32,14 @@ def test_defaults_are_those_of_the_declaration(name: str) -> None:
 @pytest.mark.parametrize("name", CAUSAL_METHODS)
 def test_the_stage_has_the_defaults_of_the_declaration(name: str) -> None:
     assert TABLES[name]().stage_parameters() == METHODS[name].stage
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_a_table_goes_to_another_process(name: str) -> None:
+    table = adapter.validate_python({"method": name})
+    copied = pickle.loads(pickle.dumps(table))  # noqa: S301
+    assert (type(copied), copied) == (type(table), table)
+    assert copied.model_fields_set == table.model_fields_set
 
 
 def test_degrees_read_well() -> None:
