@@ -28,7 +28,8 @@ td.text{min-width:6em}td.run{min-width:17em}td.run small{margin-left:6px;white-s
 th:last-child{cursor:default}td:last-child{white-space:nowrap}
 th[aria-sort=ascending] span::after{content:" ▲";font-size:9px}
 th[aria-sort=descending] span::after{content:" ▼";font-size:9px}
-td.figure{background:linear-gradient(90deg,var(--bar) var(--part,0%),transparent 0) 9px 100%/calc(100% - 18px) 3px no-repeat}
+td.figure{background:linear-gradient(90deg,var(--bar) var(--part,0%),transparent 0)
+9px 100%/calc(100% - 18px) 3px no-repeat}
 td.least{font-weight:700}tr:hover td{background-color:#8881}td.reason{width:50%}
 .dense{font-size:12px}.dense th{overflow-wrap:anywhere}.dense td,.dense th{padding:2px 4px}
 .dense .text,.dense td.run{min-width:0}.dense td:last-child{white-space:normal}
