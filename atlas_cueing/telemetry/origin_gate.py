@@ -1,6 +1,6 @@
 """A gate in front of a WebSocket server: it lets in programs, and web pages of known origin only.
 
-A browser lets any page connect to any port of this machine, and tells the server only the page's
+A browser lets any page connect to any port of this machine, and sends the server only the page's
 origin (RFC 6455, 10.2). A server that does not look at it can be put behind this gate, at an
 address that cannot be guessed.
 """

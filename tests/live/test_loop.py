@@ -19,7 +19,10 @@ REMEDY = "what helps: --priority, a lower --rate, fewer programs beside it"
 
 
 def run(delays: dict[int, float], ticks: int = 60, costs: dict[int, float] | None = None) -> Rig:
-    """A loop whose wait before tick k (from 1) takes delays[k] s too long, and whose tick k takes costs[k] s; then it ends."""
+    """Run a loop of some ticks.
+
+    The wait before tick k (from 1) takes delays[k] s too long, and tick k takes costs[k] s.
+    """
     rig = Rig(DT, duration=1e9)
     costs = costs or {}
     wait, tick = rig.clock.sleep_until, rig.controller.tick
@@ -66,7 +69,7 @@ def test_the_schedule_is_absolute() -> None:
 
 
 def test_missed_deadlines_are_counted_and_left_out() -> None:
-    """1.5 periods late at one tick: the deadline in between has no tick, and the platform's own time stays even."""
+    """1.5 periods late at one tick: the deadline between has no tick; platform time stays even."""
     rig = run({20: 0.015})
     timings = rig.tape.timings
     assert timings[19].lateness == pytest.approx(0.015)

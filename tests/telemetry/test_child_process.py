@@ -1,4 +1,4 @@
-"""A forked process: what it says, how it ends, and that it never climbs into the copy of its parent."""
+"""A child process: its answer, its end, and that it never runs code of its parent."""
 
 import os
 import signal

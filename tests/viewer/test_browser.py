@@ -1,4 +1,4 @@
-"""The three views in a real browser: nothing is fetched from elsewhere, the scene is drawn, controls do what they say."""
+"""The three views in a real browser: nothing is fetched, the scene is drawn, controls work."""
 
 import os
 import signal

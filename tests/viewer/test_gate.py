@@ -1,4 +1,4 @@
-"""Hostile clients of a view: none gets in that should not, none gets more than its share, and the page stays."""
+"""Hostile clients of a view: none gets in or takes more than its share, and the page stays."""
 
 import gc
 import http.client
@@ -124,7 +124,7 @@ def test_what_a_page_of_another_host_sends_is_not_read(server: Any) -> None:
 
 
 def told(caplog: pytest.LogCaptureFixture) -> list[str]:
-    """What would have come to stderr: anything in logs that are not ours, which the command keeps to itself."""
+    """Return what would have come to stderr: records of all logs but the program's own."""
     gc.collect()  # asyncio tells of a task that failed when it is dropped
     return [record.name for record in caplog.records if not record.name.startswith("atlas_cueing")]
 

@@ -66,7 +66,7 @@ def test_it_does_not_go_to_what_is_no_time(at: float) -> None:
 
 
 def sent(server: Any, label: str, value: Any) -> None:
-    """A client sets a value, as viser takes it: of the right type, and otherwise whatever it says."""
+    """Set a value as a client of viser can: of the right type, and otherwise any."""
     (handle,) = (
         h
         for h in server.gui._gui_input_handle_from_uuid.values()

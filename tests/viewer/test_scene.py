@@ -1,4 +1,4 @@
-"""The picture is true: wheels touch and turn the right way, the stage is where it is, nothing cuts into the sphere."""
+"""The picture is true: wheels touch and turn the right way, nothing cuts into the sphere."""
 
 from typing import Any
 
@@ -140,7 +140,7 @@ def test_the_arrow_is_the_force(server: Any, platform: Platform, size: float) ->
 @pytest.mark.parametrize("preset", presets())
 @pytest.mark.parametrize("largest", [0.0, 1.0, 2.9, 7.5])
 def test_the_largest_force_stays_in_the_picture(server: Any, preset: str, largest: float) -> None:
-    """Wherever the stage is and however the rider is turned, the head of the longest arrow is in a picture of 4 to 3."""
+    """For any stage and attitude the head of the longest arrow is in a picture of 4 to 3."""
     platform, rng = load_platform(preset), np.random.default_rng(2)
     scene = Scene(server, platform, largest)
     travel = np.array(platform.stage_limit_values().travel)

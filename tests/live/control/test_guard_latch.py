@@ -154,7 +154,10 @@ def test_a_late_command_is_fit_and_an_early_one_is_not(
 
 @pytest.mark.parametrize(("ulps", "fit"), [(0, True), (-2, True), (-3, False), (-4, False)])
 def test_a_time_may_be_early_by_its_rounding(ulps: int, fit: bool) -> None:
-    """A clock of 2^30 s, 1 January 2004, has steps of 0.24 us: 30 times what a tick of 8 ms may be early otherwise."""
+    """A clock of 2^30 s, 1 January 2004, has steps of 0.24 us.
+
+    That is 30 times what a tick of 8 ms may be early otherwise.
+    """
     start = 2.0**30
     guard = fresh()
     guard.start(replace(STANDING, time=start))

@@ -84,7 +84,7 @@ def test_work_is_bounded_in_a_flood() -> None:
 
 
 def test_a_stranger_is_not_heard_after_pinning() -> None:
-    """Neither followed nor able to stop the vehicle: what it sends does not count as a row of bad packets."""
+    """Its packets are not followed, and do not count as a row of bad ones, which would stop it."""
     ride = Ride()
     ride.send(every(0.0, 1.0))
     ride.until(1.0)

@@ -44,7 +44,7 @@ def server(ring: Ring) -> Iterator[FoxgloveProcess]:
 
 
 class Viewer:
-    """What Foxglove does: subscribe to all topics and decode what comes by the schemas that are told."""
+    """Does as Foxglove: subscribes to all topics and decodes messages by the server's schemas."""
 
     def __init__(self, url: str) -> None:
         self.socket: ClientConnection = connect(
@@ -76,7 +76,10 @@ class Viewer:
         return self.classes[number].FromString(content)
 
     def shown(self, writer: LiveWriter, time: float) -> dict[str, tuple[int, bytes]]:
-        """The next message of each topic but /status when this tick is written, again and again until somebody is listening."""
+        """Return the next message of each topic but /status when this tick is written.
+
+        It is written again and again until the subscription has arrived.
+        """
         found: dict[str, tuple[int, bytes]] = {}
         for step in range(1000):
             writer.tick(*live_tick(time + step))

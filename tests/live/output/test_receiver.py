@@ -1,4 +1,4 @@
-"""The reference receiver: what it follows, what it refuses, when it stops, and the command around it."""
+"""The reference receiver: what it follows and refuses, when it stops, and its command."""
 
 import json
 import socket
@@ -63,7 +63,11 @@ class TestFollowing:
 
     @given(st.floats(0.0, 0.29))
     def test_between_it_is_the_motion_itself(self, t: float) -> None:
-        """Hermite: h^4 / 384 of the fourth derivative in position and speed, h^2 / 8 of the second in acceleration."""
+        """The error of Hermite's interpolation has a bound.
+
+        h^4 / 384 of the fourth derivative in position and speed, h^2 / 8 of the second in
+        acceleration.
+        """
         command = following(30).at(START + LEAD + t)
         true = swinging(t)
         assert close(

@@ -1,4 +1,4 @@
-"""The recorder behind the loop: what a log has at the end, and what is left when somebody is killed."""
+"""The recorder behind the loop: its log at the end, and what is left after a kill."""
 
 import os
 import signal
@@ -92,7 +92,7 @@ class TestTheProcess:
     def test_when_all_are_killed_the_part_has_all_but_a_tenth_of_a_second(
         self, tmp_path: Path
     ) -> None:
-        """At any moment between two flushes, by a clock that waits for a recorder which a busy machine does not run."""
+        """At any moment between two flushes, by a clock that waits for the recorder."""
         lost = []
         for ticks in range(75, 145, 10):
             path = tmp_path / f"{ticks}" / "run.mcap"
