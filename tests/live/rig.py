@@ -61,7 +61,7 @@ def scenario(platform: str = "atlas-2.9m", *settings: str) -> Scenario:
 
 
 class FakeClock:
-    """Time goes on when somebody sleeps, and by `delay` (s) more, if that is set, once."""
+    """Time goes on with each sleep, and by `delay` (s) more, if that is set, once."""
 
     def __init__(self, start: float = 100.0) -> None:
         self.time, self.delay = start, 0.0

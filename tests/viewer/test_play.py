@@ -129,11 +129,11 @@ def test_the_page_follows_the_play_head(server: Any, run: RecordedRun) -> None:
 def test_it_is_served_until_somebody_says_no(
     run: RecordedRun, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    told: list[str] = []
+    urls: list[str] = []
     answers = iter([True, True, False])
-    play(run.platform, run.flight, told.append, go_on=lambda: next(answers))
-    assert len(told) == 1
-    assert told[0].startswith("http://127.0.0.1:")
+    play(run.platform, run.flight, urls.append, go_on=lambda: next(answers))
+    assert len(urls) == 1
+    assert urls[0].startswith("http://127.0.0.1:")
     assert capfd.readouterr() == ("", "")
 
 

@@ -162,15 +162,15 @@ def test_the_largest_force_stays_in_the_picture(server: Any, preset: str, larges
 
 def test_arrows_tell_whose_they_are_and_how_large(server: Any, platform: Platform) -> None:
     scene = Scene(server, platform, 2.9)
-    said = [node(server, f"{BESIDE}/cabin/head/{name}/tip/name") for name in ("pilot", "felt")]
+    labels = [node(server, f"{BESIDE}/cabin/head/{name}/tip/name") for name in ("pilot", "felt")]
     scene.show(Pose(REST.q_WS, REST.p_W, REST.wheel_angle, (0.0, 0.0, -28.44), REST.felt_f))
-    assert [label.text for label in said] == ["vehicle 2.9 g", "rider 1.0 g"]
+    assert [label.text for label in labels] == ["vehicle 2.9 g", "rider 1.0 g"]
     assert (
         node(server, "/scale").text
         == "arrows are specific force: 1 g = 0.45 m, at most 1.30 m (2.9 g)"
     )
     # where both arrows are the same, the labels still stand apart
-    assert len({label.anchor for label in said}) == 2
+    assert len({label.anchor for label in labels}) == 2
 
 
 def test_a_pose_with_a_number_that_is_none_cannot_be_drawn() -> None:

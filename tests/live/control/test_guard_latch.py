@@ -39,8 +39,10 @@ def test_the_first_refusal_latches_with_its_reason() -> None:
     wrong = replace(moving(5), p_WS_W=(0.3, 0.0, 0.0))
     given = [guard.check(wrong)]
     reason = guard.reason
-    told = rf"stage x position by the speed 0\.3, allowed: \S+ <= value <= [-.e0-9]+, at {5 * DT} s"
-    assert re.fullmatch(told, reason), reason
+    wanted = (
+        rf"stage x position by the speed 0\.3, allowed: \S+ <= value <= [-.e0-9]+, at {5 * DT} s"
+    )
+    assert re.fullmatch(wanted, reason), reason
     given += [guard.check(replace(moving(n), p_WS_W=(0.9, 0.0, 0.0))) for n in range(6, 10)]
     given += [guard.stop(10 * DT)]
     assert (guard.reason, guard.stopping) == (reason, True)

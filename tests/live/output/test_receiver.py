@@ -240,16 +240,16 @@ class TestTheCommand:
     def test_it_tells_rate_lateness_and_the_trip_at_the_end(self) -> None:
         # a tenth of a second is sent, and up to three on a busy machine
         done = received(20, "--duration", "3.0")
-        told = json.loads(done.stdout)
+        report = json.loads(done.stdout)
         assert done.returncode == 1, "the sender stops before the receiver does"
-        assert "allowed: 0.1 s" in told["tripped"]
-        assert told["good"] > 0
-        assert told["rate_hz"] == round(told["good"] / 3.0, 2)
+        assert "allowed: 0.1 s" in report["tripped"]
+        assert report["good"] > 0
+        assert report["rate_hz"] == round(report["good"] / 3.0, 2)
         assert (
             -1e3 * LEAD
-            < told["lateness_p0_ms"]
-            <= told["lateness_p50_ms"]
-            <= told["lateness_p100_ms"]
+            < report["lateness_p0_ms"]
+            <= report["lateness_p50_ms"]
+            <= report["lateness_p100_ms"]
         )
 
     def test_nothing_received_is_no_success(self) -> None:
