@@ -137,7 +137,8 @@ async def _pump(source: asyncio.StreamReader, sink: asyncio.StreamWriter) -> Non
 
 
 async def _close(writer: asyncio.StreamWriter) -> None:
-    """Close a connection; what a vanished client has not taken is dropped."""
+    """Close a connection after its last bytes; drop those that are not taken in time."""
+    writer.close()
     with suppress(OSError, TimeoutError):
-        await asyncio.wait_for(writer.drain(), PATIENCE_S)
+        await asyncio.wait_for(writer.wait_closed(), PATIENCE_S)
     writer.transport.abort()

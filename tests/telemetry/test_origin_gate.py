@@ -151,10 +151,11 @@ class TestTheRelay:
 
 
 def test_finish_waits_until_clients_have_the_last_bytes() -> None:
-    """More of them than any buffer takes, from a server that closes as soon as it has sent them."""
+    """More bytes than any buffer takes, from a server that closes as soon as they are sent."""
     everything = bytes(64 * 2**20)
 
-    async def send_all(_: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    async def send_all(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        await reader.readuntil(b"\r\n\r\n")
         writer.write(everything)
         writer.close()
 
