@@ -1,6 +1,6 @@
 """A gate in front of a WebSocket server: it lets in programs, and web pages of known origin only.
 
-A browser lets any page connect to any port of this machine, and tells the server only the page's
+A browser lets any page connect to any port of this machine, and sends the server only the page's
 origin (RFC 6455, 10.2). A server that does not look at it can be put behind this gate, at an
 address that cannot be guessed.
 """
@@ -36,25 +36,35 @@ class OriginGate:
         `origins` are allowed beside pages of this machine (http or https, localhost, any port).
         """
         self._server, self._origins = server, origins
-        self._clients = 0
+        self._clients = set[asyncio.Task[object]]()
 
     async def open(self, listener: socket.socket) -> asyncio.Server:
         """Serve clients of a listening socket."""
         return await asyncio.start_server(self._client, sock=listener, limit=LARGEST_REQUEST)
 
+    async def finish(self, timeout: float) -> None:
+        """Wait until the server has closed all connections and clients have their last bytes.
+
+        It takes at most `timeout` s.
+        """
+        if self._clients:
+            await asyncio.wait(self._clients, timeout=timeout)
+
     async def _client(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        self._clients += 1
+        task = asyncio.current_task()
+        assert task is not None, "it runs in a task"  # noqa: S101
+        self._clients.add(task)
         try:
             await self._admit(reader, writer)
         except (OSError, asyncio.IncompleteReadError, asyncio.LimitOverrunError, TimeoutError):
             pass  # one client's trouble does not concern the others
         finally:
-            self._clients -= 1
             await _close(writer)
+            self._clients.discard(task)
 
     async def _admit(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         request = await asyncio.wait_for(reader.readuntil(b"\r\n\r\n"), PATIENCE_S)
-        if self._clients > MOST_CLIENTS:
+        if len(self._clients) > MOST_CLIENTS:
             writer.write(_REFUSAL % b"503 Too many clients")
         elif not self.admits(request):
             writer.write(_REFUSAL % b"403 Origin not allowed")
@@ -127,7 +137,8 @@ async def _pump(source: asyncio.StreamReader, sink: asyncio.StreamWriter) -> Non
 
 
 async def _close(writer: asyncio.StreamWriter) -> None:
-    """Close a connection; what a vanished client has not taken is dropped."""
+    """Close a connection after its last bytes; drop those that are not taken in time."""
+    writer.close()
     with suppress(OSError, TimeoutError):
-        await asyncio.wait_for(writer.drain(), PATIENCE_S)
+        await asyncio.wait_for(writer.wait_closed(), PATIENCE_S)
     writer.transport.abort()

@@ -70,10 +70,11 @@ class Controls:
         """Show a state and the reason for it; enable the buttons that it allows."""
         self._state = state
         colour = _COLOURS.get(state, _OTHER)
+        title = html_text(state.replace("_", " "))
         self._head.content = (
             f'<div style="background:{colour};color:#fff;border-radius:6px;margin:8px'
             ' 10px;padding:10px 14px"><div id="state"'
-            f' style="font-size:26px;font-weight:700">{html_text(state.replace("_", " "))}</div><div'
+            f' style="font-size:26px;font-weight:700">{title}</div><div'
             f' id="reason" style="font-size:13px;min-height:1.3em">{html_text(reason)}</div></div>'
         )
         for name, button in self._buttons.items():

@@ -1,7 +1,7 @@
 """A gate for viser's server, which has none.
 
 It keeps out requests of web pages of other hosts, and too much of anything. Browsers let any page
-of the web connect to any port of this machine, but tell where the page is from (Origin; RFC 6455,
+of the web connect to any port of this machine, but send where the page is from (Origin; RFC 6455,
 10.2) and under which name it found the server (Host: another name than this machine's when a name
 server was made to point here). Both are checked before the handshake: later, messages of a client
 that is being shut out would still be read.

@@ -26,7 +26,12 @@ name = "short"
 duration_s = 60.0
 [vehicle]
 source = "signal"
-signal = [{ axis = "roll_rate", shape = "sine", amplitude_deg_s = 10.0, frequency_rad_s = 2.0, duration_s = 60.0 }]
+[[vehicle.signal]]
+axis = "roll_rate"
+shape = "sine"
+amplitude_deg_s = 10.0
+frequency_rad_s = 2.0
+duration_s = 60.0
 [platform]
 preset = "atlas-2.9m"
 [cueing]

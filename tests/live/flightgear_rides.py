@@ -1,4 +1,4 @@
-"""A port that is sent packets by hand, and a ride of the source that listens to it."""
+"""A port that is sent packets by hand, and a simulator of the source that listens to it."""
 
 from collections import deque
 from collections.abc import Sequence
@@ -45,7 +45,7 @@ class Port:
         self.closed = True
 
 
-class Ride:
+class Simulator:
     """A source on such a port, and the motion that the simulator flies."""
 
     def __init__(self, rate_hz: float = RATE) -> None:

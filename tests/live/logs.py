@@ -22,7 +22,7 @@ def recovered(path: Path) -> tuple[Recovered, Log]:
 
 
 class largest_file:  # noqa: N801 - reads as a function
-    """No file of this process, or of one forked meanwhile, may grow larger than this many bytes: a full disk."""
+    """A full disk: no file of this process, or of one forked meanwhile, grows larger than this."""
 
     def __init__(self, size: int) -> None:
         self._size = size

@@ -29,15 +29,15 @@ def live_tick(time: float) -> tuple[Tick, Timing]:
     return tumbling_at(time), Timing(time, time + 0.25, 1e-5, 2e-4, 0.004, 3.0, 2.0)
 
 
-def ride(
+def write_ticks(
     writer: LiveWriter,
     rate: float,
     ticks: int | None = None,
-    told: Callable[[float], None] = lambda _: None,
+    written: Callable[[float], None] = lambda _: None,
 ) -> None:
     """Write ticks in real time on an absolute schedule, for ever without a number.
 
-    `told` hears of each that is written.
+    `written` hears of each that is written.
     """
     start = monotonic()
     for k in count():
@@ -45,7 +45,7 @@ def ride(
             return
         sleep(max(start + k / rate - monotonic(), 0.0))
         writer.tick(*live_tick(k / rate))
-        told(k / rate)
+        written(k / rate)
 
 
 class SharedClock:

@@ -1,4 +1,4 @@
-"""A live run without waiting: a clock that is told, a vehicle that fails on demand, and all commands kept."""
+"""A live run without waiting: a clock under control, faults on demand, all commands kept."""
 
 import tempfile
 from collections.abc import Callable, Iterable, Sequence
@@ -40,7 +40,12 @@ name = "live"
 duration_s = 5.0
 [vehicle]
 source = "signal"
-signal = [{{ axis = "roll_rate", shape = "sine", amplitude_deg_s = 20.0, frequency_rad_s = 2.0, duration_s = 5.0 }}]
+[[vehicle.signal]]
+axis = "roll_rate"
+shape = "sine"
+amplitude_deg_s = 20.0
+frequency_rad_s = 2.0
+duration_s = 5.0
 [platform]
 preset = "{platform}"
 """
@@ -56,7 +61,7 @@ def scenario(platform: str = "atlas-2.9m", *settings: str) -> Scenario:
 
 
 class FakeClock:
-    """Time goes on when somebody sleeps, and by `delay` (s) more, if that is set, once."""
+    """Time goes on with each sleep, and by `delay` (s) more, if that is set, once."""
 
     def __init__(self, start: float = 100.0) -> None:
         self.time, self.delay = start, 0.0
@@ -70,11 +75,12 @@ class FakeClock:
 
 
 class TumblingSource:
-    """A vehicle that turns for ever about an axis that wanders, with every failing of an input on demand.
+    """A vehicle that turns for ever about a changing axis, with every fault of an input on demand.
 
-    quiet: nothing comes from now on. bad: so many samples are refused from now on. jumps: it is
-        somewhere else at the next
-    read. raises: every read does.
+    quiet: nothing comes from now on.
+    bad: number of samples that are refused from now on.
+    jumps: the vehicle is at another attitude at the next read.
+    raises: by every read.
     """
 
     def __init__(self, dt: float, rate: float = 0.6) -> None:

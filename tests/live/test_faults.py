@@ -1,4 +1,4 @@
-"""Every fault in every state: what follows, no limit broken by any command, an end at rest, and a run that can go on."""
+"""Every fault in every state: no limit broken, an end at rest, and a run that can go on."""
 
 from itertools import permutations
 from random import Random
@@ -18,7 +18,7 @@ LONGEST_END = 10.0  # s from the wish to stop or park to the end
 
 @pytest.mark.parametrize("state", State)
 def test_every_fault_in_every_state(state: State) -> None:
-    """One after the other on one platform, so that each is also the proof that it runs again after the one before."""
+    """One after the other on one platform: each proves that it runs again after the last one."""
     rig = Rig(0.02, settings=QUICK)
     for name, (fault, leaves, to) in MATRIX.items():
         rig.bring_to(state)
@@ -85,7 +85,7 @@ def test_a_hold_by_the_input_ends_by_itself(name: str, state: State) -> None:
 
 
 def test_a_jump_is_frozen_not_chased() -> None:
-    """From the jump to the end of the hold the rates only fall, for all that the vehicle is far away."""
+    """From the jump to the end of the hold the rates only fall, though the vehicle is far away."""
     rig = Rig(settings=QUICK)
     rig.bring_to(State.RUNNING)
     before = max(map(abs, rig.motion.w_WS_W))

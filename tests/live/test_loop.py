@@ -1,4 +1,4 @@
-"""The schedule against a clock that is told.
+"""The schedule against a clock under control.
 
 Absolute, missed deadlines counted and left out, everything in order.
 """
@@ -19,7 +19,10 @@ REMEDY = "what helps: --priority, a lower --rate, fewer programs beside it"
 
 
 def run(delays: dict[int, float], ticks: int = 60, costs: dict[int, float] | None = None) -> Rig:
-    """A loop whose wait before tick k (from 1) takes delays[k] s too long, and whose tick k takes costs[k] s; then it ends."""
+    """Run a loop of some ticks.
+
+    The wait before tick k (from 1) takes delays[k] s too long, and tick k takes costs[k] s.
+    """
     rig = Rig(DT, duration=1e9)
     costs = costs or {}
     wait, tick = rig.clock.sleep_until, rig.controller.tick
@@ -54,7 +57,7 @@ def test_a_punctual_run() -> None:
 
 
 def test_the_schedule_is_absolute() -> None:
-    """Half a period late, ten times: no deadline moves, and the late ticks are told as late."""
+    """Half a period late, ten times: no deadline moves, and the late ticks are recorded as late."""
     rig = run(dict.fromkeys(range(10, 20), 0.005))
     timings = rig.tape.timings
     assert [t.elapsed for t in timings] == pytest.approx([k * DT for k in range(60)], abs=1e-9)
@@ -66,7 +69,7 @@ def test_the_schedule_is_absolute() -> None:
 
 
 def test_missed_deadlines_are_counted_and_left_out() -> None:
-    """1.5 periods late at one tick: the deadline in between has no tick, and the platform's own time stays even."""
+    """1.5 periods late at one tick: the deadline between has no tick; platform time stays even."""
     rig = run({20: 0.015})
     timings = rig.tape.timings
     assert timings[19].lateness == pytest.approx(0.015)
@@ -107,7 +110,7 @@ def test_five_missed_in_a_row_are_borne_and_six_are_not() -> None:
     assert fault[2] == f"6 deadlines missed in a row, allowed: at most 5; {REMEDY}"
 
 
-def test_states_are_told_before_their_first_tick() -> None:
+def test_states_are_reported_before_their_first_tick() -> None:
     rig = Rig(DT)
     rig.controller.engage()
     events: dict[int, Callable[[], None]] = {
@@ -123,8 +126,8 @@ def test_states_are_told_before_their_first_tick() -> None:
 
     rig.clock.sleep_until = sleep_until  # type: ignore[method-assign]
     rig.loop.run()
-    told = [(time, state) for time, state, _ in rig.tape.statuses]
-    assert [state for _, state in told][:6] == [
+    changes = [(time, state) for time, state, _ in rig.tape.statuses]
+    assert [state for _, state in changes][:6] == [
         "parked",
         "engaging",
         "holding",
@@ -132,7 +135,7 @@ def test_states_are_told_before_their_first_tick() -> None:
         "running",
         "parking",
     ]
-    assert told[-1][1] == "parked"
+    assert changes[-1][1] == "parked"
     names = [state.value for state in State]
     current, ticks = "", iter(rig.tape.timings)
     for what in rig.tape.order:
@@ -143,8 +146,8 @@ def test_states_are_told_before_their_first_tick() -> None:
         assert names[int(timing.state)] == current
         assert not [
             t
-            for t, state in told
-            if t > timing.time and state == current and told.index((t, state)) == 0
+            for t, state in changes
+            if t > timing.time and state == current and changes.index((t, state)) == 0
         ]
 
 

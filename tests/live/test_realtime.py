@@ -1,4 +1,4 @@
-"""What is granted is used and given back; what is refused is told and does no harm."""
+"""What is granted is used and given back; what is refused is noted and does no harm."""
 
 import errno
 import gc
@@ -88,7 +88,7 @@ def test_what_is_granted_is_given_back(calls: list[tuple[str, object]]) -> None:
 def test_refusals_are_told_and_do_no_harm(
     calls: list[tuple[str, object]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A system that lets nobody set anything, not even to what it is."""
+    """A system that refuses every setting, even the present one."""
     monkeypatch.setattr(os, "sched_setscheduler", refuse)
     monkeypatch.setattr(os, "sched_setaffinity", refuse)
     monkeypatch.setattr(module, "_lock_memory", refuse)

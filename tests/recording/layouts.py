@@ -59,7 +59,7 @@ def second_half_first(items: Iterable[Item]) -> Iterator[Item]:
 
 
 def beside_others(items: Iterable[Item]) -> Iterator[Item]:
-    """Somebody else's messages between ours: JSON, no schema at all, and protobuf of another kind."""
+    """Write messages of another program: JSON, no schema at all, protobuf of another kind."""
     json = Schema(id=90, name="note", encoding="jsonschema", data=b"{}")
     nothing = Schema(id=0, name="", encoding="", data=b"")
     other = Schema(id=91, name="other.Kind", encoding="protobuf", data=b"\xff no descriptors \xff")
@@ -115,7 +115,7 @@ LAYOUTS = {
 
 
 def rewritten(source: Path, target: Path, layout: Layout) -> Path:
-    """Copy every message, file and record of metadata of `source` into `target` with the `mcap` package."""
+    """Copy every message, file and metadata record of `source` to `target` with `mcap`."""
     with source.open("rb") as stream, target.open("wb") as output:
         reader = make_reader(stream)
         writer = Writer(output, **layout.options)

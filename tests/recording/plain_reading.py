@@ -22,7 +22,10 @@ def open_recorder(path: Path, **options: Any) -> McapRecorder:
 
 
 def decoded(path: Path) -> Iterator[tuple[str, int, Any]]:
-    """Topic, log time and decoded message of everything in the log, every checksum validated, in the order of the file."""
+    """Yield topic, log time and decoded message of everything in the log, in the order of the file.
+
+    Every checksum is validated.
+    """
     with path.open("rb") as stream:
         reader = NonSeekingReader(stream, validate_crcs=True, decoder_factories=[DecoderFactory()])
         for item in reader.iter_decoded_messages(log_time_order=False):

@@ -26,7 +26,10 @@ FELT = TOPICS[-1].fields
 def written(
     path: Path, *channels: tuple[str, str, str, str, bytes, list[bytes]], metadata: bool = True
 ) -> Path:
-    """A file with messages of each channel: topic, its encoding, schema's name, encoding and data, and contents."""
+    """Write a file with messages of each channel.
+
+    A channel has a topic, an encoding, its schema's name, encoding and data, and contents.
+    """
     with path.open("wb") as stream:
         writer = Writer(stream)
         writer.start()
@@ -53,7 +56,7 @@ def described(name: str, fields: list[tuple[str, int, int]]) -> bytes:
 
 @pytest.mark.parametrize("name", ["atlas.Felt", "Felt", "other.robot.Felt"])
 def test_fields_go_by_their_names(tmp_path: Path, name: str) -> None:
-    """Backwards, with numbers of their own, narrower types, and fields between them that we do not know."""
+    """Fields in reverse order, with other numbers, narrower types, and unknown fields between."""
     types = [KINDS.TYPE_FLOAT, KINDS.TYPE_INT32, KINDS.TYPE_DOUBLE, KINDS.TYPE_BOOL]
     fields = [(field, 40 - 3 * k, types[k % 4]) for k, field in enumerate(FELT)]
     schema = described(

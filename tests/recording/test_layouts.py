@@ -136,7 +136,7 @@ def test_a_summary_in_another_place_is_found(log: Path, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("sized", [True, False])
 def test_chunks_that_lie_about_their_size(log: Path, tmp_path: Path, sized: bool) -> None:
-    """A bomb in lz4 or in zstd, whose frames tell their size or not, is unpacked no further than it claims."""
+    """A bomb in lz4 or zstd, with or without a size in its frames, is unpacked within its claim."""
     for compression, bomb in (
         (CompressionType.LZ4, lz4.frame.compress(bytes(2 * MAX_CHUNK), store_size=sized)),
         (

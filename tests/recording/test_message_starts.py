@@ -1,4 +1,4 @@
-"""Messages found by the log's own index, which is believed only where it is right, and one after the other."""
+"""Messages found by the log's own index where it is right, and otherwise one by one."""
 
 from pathlib import Path
 
@@ -95,7 +95,7 @@ def test_messages_that_overlap_are_not_believed() -> None:
 
 
 def test_a_message_that_ends_where_none_starts_is_not_believed() -> None:
-    """The second message is hidden, and one inside the first is named, of the same length: lengths do add up."""
+    """The index has one inside the first message in the place of the second; lengths add up."""
     second = record_template(2, bytes(16))
     first = record_template(1, second[:11] + bytes(40))
     data, start, end = (

@@ -1,4 +1,4 @@
-"""What a recorder refuses, and what is left of a log when the disk, the system or the caller fails it."""
+"""What a recorder refuses, and what is left of a log when disk, system or caller fail."""
 
 import errno
 import gc

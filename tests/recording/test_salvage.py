@@ -46,7 +46,7 @@ def test_what_it_unpacks_to_is_bounded(log: Path) -> None:
 
 
 def test_every_cut_is_survived(log: Path) -> None:
-    """Cut anywhere: only whole chunks count, and their number never falls with what is left of the file."""
+    """Cut anywhere: only whole chunks count, and never fewer in a longer part of the file."""
     data, before, count = log.read_bytes(), 0, 0
     for end in range(0, len(data), 97):
         log.write_bytes(data[:end])

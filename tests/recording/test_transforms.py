@@ -1,4 +1,4 @@
-"""The fixed layout of /tf against the official protobuf library and the published foxglove fields."""
+"""The fixed layout of /tf against the protobuf library and the published foxglove fields."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""A forked process: what it says, how it ends, and that it never climbs into the copy of its parent."""
+"""A child process: its answer, its end, and that it never runs code of its parent."""
 
 import os
 import signal
@@ -76,26 +76,26 @@ def test_a_sibling_that_holds_a_copy_of_our_end_does_not_hide_that_we_wait() -> 
 def test_a_sibling_that_holds_a_copy_of_our_end_does_not_hide_that_the_parent_is_gone(
     capfd: pytest.CaptureFixture[str],
 ) -> None:
-    told, tell = os.pipe()
+    reading, writing = os.pipe()
 
     def run() -> None:
         """Two processes, of which the second outlives the parent and never looks."""
-        first = ChildProcess(lambda left: patient(left) + bytes(os.write(tell, b"noticed")))
+        first = ChildProcess(lambda left: patient(left) + bytes(os.write(writing, b"noticed")))
         second = ChildProcess(lambda _: sleep(30.0) or b"")
-        os.write(tell, str(second.pid).encode())
+        os.write(writing, str(second.pid).encode())
         signal.pause()
         assert first.alive
 
     with child(run) as parent:
-        second = int(os.read(told, 100))
+        second = int(os.read(reading, 100))
         os.kill(parent, signal.SIGKILL)
     try:
-        assert select([told], [], [], PATIENCE)[0]
-        assert os.read(told, 100) == b"noticed"
+        assert select([reading], [], [], PATIENCE)[0]
+        assert os.read(reading, 100) == b"noticed"
     finally:
         os.kill(second, signal.SIGKILL)
-        os.close(told)
-        os.close(tell)
+        os.close(reading)
+        os.close(writing)
     sleep(0.02)
     assert capfd.readouterr().err == "", "that nobody heard the answer is no failure"
 

@@ -22,7 +22,7 @@ def test_a_tick_is_all_its_numbers() -> None:
     assert numbers(data) == live_row(tick, timing)
 
 
-def told(state: str, reason: str, time: float = 1.5) -> StateChange:
+def round_trip(state: str, reason: str, time: float = 1.5) -> StateChange:
     """A change of state, there and back; an end is no different."""
     ring = live_ring(1.0, 100.0)
     reader, writer = RingReader(ring), LiveWriter(ring)
@@ -36,10 +36,10 @@ def told(state: str, reason: str, time: float = 1.5) -> StateChange:
 
 
 def test_a_change_of_state() -> None:
-    assert told("holding", "no input for 0.10 s") == StateChange(
+    assert round_trip("holding", "no input for 0.10 s") == StateChange(
         1.5, "holding", "no input for 0.10 s"
     )
-    assert told("", "", 0.1 + 0.2) == StateChange(0.1 + 0.2, "", "")
+    assert round_trip("", "", 0.1 + 0.2) == StateChange(0.1 + 0.2, "", "")
 
 
 @pytest.mark.parametrize(
@@ -56,15 +56,15 @@ def test_a_change_of_state() -> None:
     ids=["long", "control", "escapes", "four bytes", "two bytes", "surrogates", "terminal"],
 )
 def test_odd_texts_keep_their_beginning(text: str) -> None:
-    back = told(text, text)
+    back = round_trip(text, text)
     for found in (back.state, back.reason):
         assert len(found) >= 50
         assert text.replace("\ud800", "?").startswith(found)
 
 
 def test_what_fits_is_kept_whole() -> None:
-    assert told("fault", "y" * LONGEST_TEXT).reason == "y" * LONGEST_TEXT
-    assert told("fault", "z" * LONGEST_TEXT + "!").reason == "z" * LONGEST_TEXT
+    assert round_trip("fault", "y" * LONGEST_TEXT).reason == "y" * LONGEST_TEXT
+    assert round_trip("fault", "z" * LONGEST_TEXT + "!").reason == "z" * LONGEST_TEXT
 
 
 @settings(max_examples=60)
@@ -74,7 +74,7 @@ def test_what_fits_is_kept_whole() -> None:
     st.floats(0.0, 1e9),
 )
 def test_any_text(state: str, reason: str, time: float) -> None:
-    back = told(state, reason, time)
+    back = round_trip(state, reason, time)
     assert back.time == time
     for text, found in ((state, back.state), (reason, back.reason)):
         assert text.encode(errors="replace").decode().startswith(found)

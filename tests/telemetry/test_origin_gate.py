@@ -3,7 +3,9 @@
 import asyncio
 import socket
 from collections.abc import Awaitable, Callable
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from threading import Event
 
 import pytest
 from hypothesis import given
@@ -146,6 +148,41 @@ class TestTheRelay:
                 await asyncio.sleep(0.001)
 
         assert gated(talk) == 3 * MOST_CLIENTS
+
+
+def test_finish_waits_until_clients_have_the_last_bytes() -> None:
+    """More bytes than any buffer takes, from a server that closes as soon as they are sent."""
+    everything = bytes(64 * 2**20)
+
+    async def send_all(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        await reader.readuntil(b"\r\n\r\n")
+        writer.write(everything)
+        writer.close()
+
+    async def run(listener: socket.socket, connected: Event) -> None:
+        server = await asyncio.start_server(send_all, "127.0.0.1", 0)
+        gate = OriginGate(server.sockets[0].getsockname(), ())
+        door = await gate.open(listener)
+        while not connected.is_set():
+            await asyncio.sleep(0.001)
+        door.close()
+        server.close()
+        await gate.finish(20.0)
+
+    def read_all(port: int, connected: Event) -> int:
+        with socket.create_connection(("127.0.0.1", port), timeout=20.0) as client:
+            client.sendall(REQUEST)
+            size = len(client.recv(1))
+            connected.set()
+            while piece := client.recv(2**20):
+                size += len(piece)
+        return size
+
+    with listen("127.0.0.1", 0) as listener, ThreadPoolExecutor(1) as pool:
+        connected = Event()
+        size = pool.submit(read_all, listener.getsockname()[1], connected)
+        asyncio.run(run(listener, connected))
+        assert size.result(20.0) == len(everything)
 
 
 class TestTheListener:

@@ -1,4 +1,4 @@
-"""The three views in a real browser: nothing is fetched from elsewhere, the scene is drawn, controls do what they say."""
+"""The three views in a real browser: nothing is fetched, the scene is drawn, controls work."""
 
 import os
 import signal
@@ -70,17 +70,17 @@ def test_a_replay_plays(browser: Any, run: RecordedRun, tmp_path: Path) -> None:
 
 
 def test_a_log_is_played(browser: Any, run: RecordedRun) -> None:
-    told: list[str] = []
+    urls: list[str] = []
     enough = Event()
     player = Thread(
         target=play,
-        args=(run.platform, run.flight, told.append),
+        args=(run.platform, run.flight, urls.append),
         kwargs={"go_on": lambda: not enough.is_set()},
     )
     player.start()
     try:
-        until(lambda: bool(told), 60.0)
-        opened = Opened(browser, told[0])
+        until(lambda: bool(urls), 60.0)
+        opened = Opened(browser, urls[0])
         page = opened.page
         page.get_by_role("button", name="Play").or_(
             page.get_by_role("button", name="Pause")

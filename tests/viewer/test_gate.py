@@ -1,4 +1,4 @@
-"""Hostile clients of a view: none gets in that should not, none gets more than its share, and the page stays."""
+"""Hostile clients of a view: none gets in or takes more than its share, and the page stays."""
 
 import gc
 import http.client
@@ -52,7 +52,7 @@ def read_on(client: ClientConnection) -> None:
         client.recv(timeout=20.0)
 
 
-def said(server: Any, request: bytes) -> bytes:
+def answer_to(server: Any, request: bytes) -> bytes:
     """What comes back until the server hangs up."""
     with socket.create_connection(("127.0.0.1", server.get_port()), timeout=20.0) as client:
         client.sendall(request)
@@ -83,7 +83,7 @@ def many(server: Any, count: int, begin: Callable[[Any], Any]) -> Iterator[list[
     ids=lambda path: path[:30],
 )
 def test_no_file_but_the_page(server: Any, path: str) -> None:
-    answer = said(server, f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n".encode())
+    answer = answer_to(server, f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n".encode())
     assert answer.startswith(b"HTTP/1.1 404")
     assert b"root:" not in answer
 
@@ -93,10 +93,12 @@ def test_no_file_but_the_page(server: Any, path: str) -> None:
 )
 def test_under_another_name_nothing_is_served(server: Any, host: str) -> None:
     """A page whose name was made to point here is of the same origin as what it asks for."""
-    assert said(server, f"GET / HTTP/1.1\r\nHost: {host}\r\n\r\n".encode()).startswith(
+    assert answer_to(server, f"GET / HTTP/1.1\r\nHost: {host}\r\n\r\n".encode()).startswith(
         b"HTTP/1.1 403"
     )
-    assert said(server, (HANDSHAKE.format(host=host) + "\r\n").encode()).startswith(b"HTTP/1.1 403")
+    assert answer_to(server, (HANDSHAKE.format(host=host) + "\r\n").encode()).startswith(
+        b"HTTP/1.1 403"
+    )
 
 
 def moved(slider: Any, to: object) -> bytes:
@@ -116,15 +118,15 @@ def test_what_a_page_of_another_host_sends_is_not_read(server: Any) -> None:
     move = moved(theirs, 0.9)
     frame = bytes([0x82, 0x80 | 126]) + struct.pack(">H", len(move)) + bytes(4) + move
     evil = HANDSHAKE.format(host="127.0.0.1") + "Origin: http://evil.example\r\n\r\n"
-    assert said(server, evil.encode() + 3 * frame).startswith(b"HTTP/1.1 403")
+    assert answer_to(server, evil.encode() + 3 * frame).startswith(b"HTTP/1.1 403")
     with joined(server) as page_of_ours:
         page_of_ours.send(moved(ours, 0.9))
         until(lambda: ours.value == 0.9)
     assert theirs.value == 0.5
 
 
-def told(caplog: pytest.LogCaptureFixture) -> list[str]:
-    """What would have come to stderr: anything in logs that are not ours, which the command keeps to itself."""
+def foreign_records(caplog: pytest.LogCaptureFixture) -> list[str]:
+    """Return what would have come to stderr: records of all logs but the program's own."""
     gc.collect()  # asyncio tells of a task that failed when it is dropped
     return [record.name for record in caplog.records if not record.name.startswith("atlas_cueing")]
 
@@ -153,7 +155,7 @@ def test_nonsense_ends_its_connection_and_nothing_else(
             read_on(ours)
     assert page(server) == 200
     assert capfd.readouterr() == ("", "")
-    assert not told(caplog)
+    assert not foreign_records(caplog)
 
 
 @pytest.mark.parametrize("updates", [{"nope": 1}, {"value": "x"}, {"value": None}])
@@ -171,7 +173,7 @@ def test_nonsense_for_a_slider_is_dropped_in_silence(
     assert slider.value == 0.5
     assert page(server) == 200
     assert capfd.readouterr() == ("", "")
-    assert not told(caplog)
+    assert not foreign_records(caplog)
 
 
 def test_a_message_larger_than_any_is_not_kept(server: Any) -> None:

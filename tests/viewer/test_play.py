@@ -66,7 +66,7 @@ def test_it_does_not_go_to_what_is_no_time(at: float) -> None:
 
 
 def sent(server: Any, label: str, value: Any) -> None:
-    """A client sets a value, as viser takes it: of the right type, and otherwise whatever it says."""
+    """Set a value as a client of viser can: of the right type, and otherwise any."""
     (handle,) = (
         h
         for h in server.gui._gui_input_handle_from_uuid.values()
@@ -129,11 +129,11 @@ def test_the_page_follows_the_play_head(server: Any, run: RecordedRun) -> None:
 def test_it_is_served_until_somebody_says_no(
     run: RecordedRun, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    told: list[str] = []
+    urls: list[str] = []
     answers = iter([True, True, False])
-    play(run.platform, run.flight, told.append, go_on=lambda: next(answers))
-    assert len(told) == 1
-    assert told[0].startswith("http://127.0.0.1:")
+    play(run.platform, run.flight, urls.append, go_on=lambda: next(answers))
+    assert len(urls) == 1
+    assert urls[0].startswith("http://127.0.0.1:")
     assert capfd.readouterr() == ("", "")
 
 

@@ -1,4 +1,4 @@
-"""The picture is true: wheels touch and turn the right way, the stage is where it is, nothing cuts into the sphere."""
+"""The picture is true: wheels touch and turn the right way, nothing cuts into the sphere."""
 
 from typing import Any
 
@@ -140,7 +140,7 @@ def test_the_arrow_is_the_force(server: Any, platform: Platform, size: float) ->
 @pytest.mark.parametrize("preset", presets())
 @pytest.mark.parametrize("largest", [0.0, 1.0, 2.9, 7.5])
 def test_the_largest_force_stays_in_the_picture(server: Any, preset: str, largest: float) -> None:
-    """Wherever the stage is and however the rider is turned, the head of the longest arrow is in a picture of 4 to 3."""
+    """For any stage and attitude the head of the longest arrow is in a picture of 4 to 3."""
     platform, rng = load_platform(preset), np.random.default_rng(2)
     scene = Scene(server, platform, largest)
     travel = np.array(platform.stage_limit_values().travel)
@@ -162,15 +162,15 @@ def test_the_largest_force_stays_in_the_picture(server: Any, preset: str, larges
 
 def test_arrows_tell_whose_they_are_and_how_large(server: Any, platform: Platform) -> None:
     scene = Scene(server, platform, 2.9)
-    said = [node(server, f"{BESIDE}/cabin/head/{name}/tip/name") for name in ("pilot", "felt")]
+    labels = [node(server, f"{BESIDE}/cabin/head/{name}/tip/name") for name in ("pilot", "felt")]
     scene.show(Pose(REST.q_WS, REST.p_W, REST.wheel_angle, (0.0, 0.0, -28.44), REST.felt_f))
-    assert [label.text for label in said] == ["vehicle 2.9 g", "rider 1.0 g"]
+    assert [label.text for label in labels] == ["vehicle 2.9 g", "rider 1.0 g"]
     assert (
         node(server, "/scale").text
         == "arrows are specific force: 1 g = 0.45 m, at most 1.30 m (2.9 g)"
     )
     # where both arrows are the same, the labels still stand apart
-    assert len({label.anchor for label in said}) == 2
+    assert len({label.anchor for label in labels}) == 2
 
 
 def test_a_pose_with_a_number_that_is_none_cannot_be_drawn() -> None:

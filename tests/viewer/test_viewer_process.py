@@ -1,4 +1,4 @@
-"""The view's own process: it starts, survives being stopped, never holds the writer up, and ends with its parent."""
+"""The viewer's process: it starts, never holds the writer up, and ends with its parent."""
 
 import os
 import signal

@@ -129,7 +129,7 @@ class LiveController:
             if self.state not in _FAULT_STATES:
                 tick = self._platform.step(replace(self._vehicle, time=time))
         except Exception as error:  # noqa: BLE001
-            # Whatever went wrong, the platform must come to a stop
+            # After any error the platform must come to a stop
             self._fail(f"{type(error).__name__}: {error}")
         command = self._guard.check(command_of(tick)) if tick else self._guard.stop(time)
         if tick is None or self._guard.stopping:

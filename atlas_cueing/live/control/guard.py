@@ -35,7 +35,7 @@ _ROUNDING = 5e-7
 _EARLY = 1e-6  # share of a tick by which a command may be early, beside the rounding of its time
 # s; a command may come so much late; after that the drives were left alone too long (assumed)
 _LATE = 0.1
-_AGES = 1e10  # s; no clock shows more, and below it ticks of 1 ms are told apart
+_AGES = 1e10  # s; no clock shows more, and below it ticks of 1 ms are distinct
 
 _Checks = tuple[tuple[str, float, float, float], ...]  # what, value, lowest and highest allowed
 

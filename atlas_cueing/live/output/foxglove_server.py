@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
 RATE_HZ = 60.0  # of the newest tick: as often as a screen draws
 REPEAT_S = 1.0  # s after which the state is sent again, for clients that came later
+CLOSING_S = 1.0  # s that clients may take for the last messages
 BACKLOG = 256  # messages kept for a client that does not read: half a second of all topics
 # Foxglove in a browser; its desktop program (assumed)
 ORIGINS = ("https://app.foxglove.dev", "file://")
@@ -145,7 +146,8 @@ async def _serve(feed: Feed, listener: socket.socket, left: Left) -> bytes:
         message_backlog_size=BACKLOG,
     )
     channels = {topic: _channel(topic, context) for topic in feed.topics}
-    gate = await OriginGate((host, server.port), ORIGINS).open(listener)
+    gate = OriginGate((host, server.port), ORIGINS)
+    door = await gate.open(listener)
     clock = asyncio.get_running_loop().time
     while True:
         last = left()
@@ -154,8 +156,9 @@ async def _serve(feed: Feed, listener: socket.socket, left: Left) -> bytes:
         await asyncio.sleep(1.0 / RATE_HZ)
         if feed.over or last:
             break
-    gate.close()
+    door.close()
     server.stop()
+    await gate.finish(CLOSING_S)  # or the last state would not reach a client on a busy machine
     return b""
 
 

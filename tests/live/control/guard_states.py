@@ -1,4 +1,4 @@
-"""Commands for the guard, axis by axis, and an examination of what it puts out that shares nothing with it but the limits.
+"""Commands for the guard, axis by axis, and an independent check of its output.
 
 Axes 0 to 2 are the wheels, whose position nobody commands, 3 to 5 the stage's x, y, z; a state is
 (p, v, a).
@@ -83,7 +83,10 @@ def rows(outputs: Iterable[Command]) -> Array:
 
 
 def excess(dt: float, outputs: Sequence[Command]) -> float:
-    """Largest share used of any limit, less one, by the numbers and by their differences, the first output after standstill."""
+    """Return the largest share used of any limit, less one.
+
+    It is by the numbers and by their differences, the first output after standstill.
+    """
     x = rows([outputs[0]] * 4 + list(outputs))
     speed, acceleration, jerk, travel = (
         np.array(each) for each in zip(*map(limits, range(6)), strict=True)

@@ -1,4 +1,4 @@
-"""One tick whatever happens: what is believed, what is asked, how a run ends, and that a tick never raises."""
+"""One tick of the controller: events, outcomes of a run, and that a tick never raises."""
 
 import pytest
 

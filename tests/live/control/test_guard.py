@@ -141,7 +141,7 @@ def standstill_from_creeping(axis: int, share: float) -> Pair:
 
 
 def turning_point(axis: int, share: float) -> Pair:
-    """Backing off from the rail: the acceleration is about to turn it round, and more so than needed to stop."""
+    """Away from the rail, with an acceleration that is about to turn it round too far to stop."""
     _, a_max, j, _ = limits(axis)
     a, j = -0.9 * a_max, ROUNDING * j
     v = 0.3 * a * a / j

@@ -39,8 +39,10 @@ def test_the_first_refusal_latches_with_its_reason() -> None:
     wrong = replace(moving(5), p_WS_W=(0.3, 0.0, 0.0))
     given = [guard.check(wrong)]
     reason = guard.reason
-    told = rf"stage x position by the speed 0\.3, allowed: \S+ <= value <= [-.e0-9]+, at {5 * DT} s"
-    assert re.fullmatch(told, reason), reason
+    wanted = (
+        rf"stage x position by the speed 0\.3, allowed: \S+ <= value <= [-.e0-9]+, at {5 * DT} s"
+    )
+    assert re.fullmatch(wanted, reason), reason
     given += [guard.check(replace(moving(n), p_WS_W=(0.9, 0.0, 0.0))) for n in range(6, 10)]
     given += [guard.stop(10 * DT)]
     assert (guard.reason, guard.stopping) == (reason, True)
@@ -154,7 +156,10 @@ def test_a_late_command_is_fit_and_an_early_one_is_not(
 
 @pytest.mark.parametrize(("ulps", "fit"), [(0, True), (-2, True), (-3, False), (-4, False)])
 def test_a_time_may_be_early_by_its_rounding(ulps: int, fit: bool) -> None:
-    """A clock of 2^30 s, 1 January 2004, has steps of 0.24 us: 30 times what a tick of 8 ms may be early otherwise."""
+    """A clock of 2^30 s, 1 January 2004, has steps of 0.24 us.
+
+    That is 30 times what a tick of 8 ms may be early otherwise.
+    """
     start = 2.0**30
     guard = fresh()
     guard.start(replace(STANDING, time=start))

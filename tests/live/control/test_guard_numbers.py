@@ -1,4 +1,4 @@
-"""What the guard takes for a command: numbers that are none, too few of them, and limits that make no sense."""
+"""Bad numbers: commands that are not finite or too short, and limits that make no sense."""
 
 from dataclasses import FrozenInstanceError, replace
 from math import inf, nan, nextafter, ulp
@@ -117,7 +117,10 @@ def spread(three: tuple[float, ...], place: int, value: float) -> tuple[float, .
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize("inside", [True, False])
 def test_positions_may_be_rounded(sign: float, inside: bool) -> None:
-    """On a million metres of rail one step of a double is a tenth of a nanometre, far more than this jerk moves in a tick."""
+    """On a million metres of rail one step of a double is a tenth of a nanometre.
+
+    That is far more than this jerk moves in a tick.
+    """
     travel, jerk = 1e6, 1e-6
     guard = Guard(
         DT,

@@ -1,4 +1,4 @@
-"""The stop that takes a command's place: against pinned distances, a simulation, smoothing's own and every limit."""
+"""The guard's stop against pinned distances, a simulation, smoothing's stop and every limit."""
 
 import json
 from pathlib import Path
@@ -78,7 +78,10 @@ def test_it_is_the_shortest_stop(
 def test_it_is_one_motion_within_its_bounds(
     p: float, v: float, share: float, a_max: float, j_max: float
 ) -> None:
-    """From where it starts, by the jerk's bound, position and speed the integrals, to rest to the last bit."""
+    """The jerk keeps its bound; speed and position are its integrals.
+
+    It starts at the given state and ends at rest to the last bit.
+    """
     stop = _Stop(p, v, share * a_max, a_max, j_max)
     span = 2.0 * (abs(v) / a_max + 2.0 * a_max / j_max)
     t = np.linspace(0.0, span, 501)

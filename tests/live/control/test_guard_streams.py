@@ -1,4 +1,7 @@
-"""Whole streams: what the pipeline makes passes untouched, and whatever else is asked, what comes out keeps every limit."""
+"""Whole streams of commands.
+
+What the pipeline makes passes untouched; for any other demand the output keeps every limit.
+"""
 
 from collections.abc import Iterator
 from dataclasses import fields, replace
@@ -54,7 +57,7 @@ def test_flights_pass_untouched(name: str, method: str) -> None:
 @pytest.mark.parametrize("dt", [1.0 / 1000.0, 1.0 / 120.0, 1.0 / 50.0])
 @pytest.mark.parametrize("name", ["equilateral", "orthogonal"])
 def test_smoothing_of_wild_cues_passes_untouched(name: str, dt: float) -> None:
-    """Where smoothing is at its limits most of the time, whichever of its three kinds of step it takes."""
+    """At the limits most of the time, with each of smoothing's three kinds of step."""
     platform = PLATFORMS[name]
     x, y, z = (tuple(row) for row in platform.wheels_from_sphere.tolist())
     step, guard = platform.smoothing(dt).step, Guard(dt, platform.wheels, platform.stage)

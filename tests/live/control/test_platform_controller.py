@@ -1,4 +1,4 @@
-"""The platform of one run: what each state begins with, where it leads, and that nothing in a tick's stream is torn."""
+"""The platform in each state: how it begins, where it leads, and that no stream has a gap."""
 
 import numpy as np
 import pytest
@@ -47,7 +47,7 @@ def test_an_event_without_a_way_changes_nothing() -> None:
 @pytest.mark.parametrize("method", CAUSAL_METHODS)
 @pytest.mark.parametrize("platform", ["atlas-2.9m", "atlas-tabletop", "atlas-1.5m"])
 def test_there_and_back_with_every_method(method: str, platform: str) -> None:
-    """Engaged to a spinning vehicle, held, resumed, parked, engaged again: in time and in all limits."""
+    """Engaged to a spinning vehicle, held, resumed, parked, engaged again: in all limits."""
     rig = Rig(
         0.02,
         platform,

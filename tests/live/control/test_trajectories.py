@@ -1,4 +1,4 @@
-"""Courses by themselves: where they lead, and that what they give as rates is the derivative of where they are."""
+"""Trajectories by themselves: where they lead, and that their rates are derivatives."""
 
 from collections.abc import Callable
 from itertools import pairwise
@@ -79,7 +79,7 @@ def columns(cues: list[Cue]) -> tuple[Array, Array, Array, Array, Array]:
 
 
 def check_derivatives(cues: list[Cue], dt: float = DT, size: float = 1.0) -> None:
-    """Central differences over two ticks, with an error of dt^2 times a third derivative of some `size`.
+    """Check central differences over two ticks: their error is dt^2 times a third derivative.
 
     That of the acceleration is dt / 2 times the jerk, which jumps at both ends of a smoothstep.
     """
@@ -227,7 +227,7 @@ def test_a_blend_is_smooth_from_rest_to_a_spinning_cue(
 
 @pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.6, 0.0, 0.8)])
 def test_a_blend_over_half_a_turn_that_grows(axis: Vec3) -> None:
-    """The cue runs away from the platform: what was half a turn becomes more, and the way must not change over."""
+    """The cue runs away: half a turn becomes more, and the blend must not change its way round."""
     cue = spinning(scale(1.2, axis), exp(scale(pi - 0.1, axis)))
     check_derivatives(drive(EngageTrajectory(UPRIGHT, cue(0.0), DT, 4.0), 3.999, cue), size=5.0)
 

@@ -20,7 +20,10 @@ def test_jitter_is_cut_to_a_third(rate_hz: float) -> None:
 
 @pytest.mark.parametrize("off", [0.5, 0.9, 0.999, 1.001, 1.1, 2.0, 3.9])
 def test_another_rate_than_the_nominal_is_found(off: float) -> None:
-    """Or a whole part of it, for a sender slower than it was told to be: each sample is a few periods then."""
+    """A sender of another rate than the nominal.
+
+    For a slower one it may be a whole fraction: each sample is a few periods then.
+    """
     arrivals = ArrivalTimes(100.0)
     period = 0.01 * off
     times = [arrivals.time(k * period) for k in range(400)]

@@ -109,7 +109,10 @@ def test_rates_are_the_derivative_of_the_attitude(
 
 
 def steps(states: list[VehicleState]) -> Array:
-    """From each read to the next: angle beyond what the rates explain, change of rate, change of force."""
+    """Return what changes from each read to the next.
+
+    Angle beyond what the rates explain, change of rate, change of force.
+    """
     found = []
     for a, b in pairwise(states):
         rate, force = norm(subtract(b.w_NB_B, a.w_NB_B)), norm(subtract(b.f_B, a.f_B))
@@ -118,7 +121,7 @@ def steps(states: list[VehicleState]) -> Array:
 
 
 def test_a_correction_makes_no_step() -> None:
-    """A sample that is off by 1 deg, 0.1 rad/s and 2 m/s^2 is come to within one interval, evenly."""
+    """A sample off by 1 deg, 0.1 rad/s and 2 m/s^2 is reached within one interval, evenly."""
     course = Extrapolation(REST, 0.03)
     course.add(replace(REST, time=0.03))
     before = [course.at(0.001 * k) for k in range(30, 61)]
@@ -143,7 +146,7 @@ def test_a_correction_makes_no_step() -> None:
 
 @given(st.integers(0, 2**32))
 def test_bounded_for_ever(seed: int) -> None:
-    """However the samples were and however late the next one is: rates and force tend to constants."""
+    """Rates and force tend to constants, for any samples and however late the next one is."""
     random = Random(seed)
     state, course = REST, Extrapolation(REST, 0.01)
     for k in range(1, 6):

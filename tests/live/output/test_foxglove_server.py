@@ -23,7 +23,7 @@ from atlas_cueing.recording.schemas import message_class, schema_of
 from atlas_cueing.signals import LIVE_TOPICS, live_row
 from atlas_cueing.telemetry import LiveWriter, Ring, live_ring
 
-from ..riding import STARTED_NS, child, live_recorder, live_tick, ride
+from ..riding import STARTED_NS, child, live_recorder, live_tick, write_ticks
 
 PROTOCOL = "foxglove.sdk.v1"
 PATIENCE = 60.0  # s, for what takes milliseconds on a machine that has time
@@ -44,7 +44,7 @@ def server(ring: Ring) -> Iterator[FoxgloveProcess]:
 
 
 class Viewer:
-    """What Foxglove does: subscribe to all topics and decode what comes by the schemas that are told."""
+    """Does as Foxglove: subscribes to all topics and decodes messages by the server's schemas."""
 
     def __init__(self, url: str) -> None:
         self.socket: ClientConnection = connect(
@@ -76,7 +76,10 @@ class Viewer:
         return self.classes[number].FromString(content)
 
     def shown(self, writer: LiveWriter, time: float) -> dict[str, tuple[int, bytes]]:
-        """The next message of each topic but /status when this tick is written, again and again until somebody is listening."""
+        """Return the next message of each topic but /status when this tick is written.
+
+        It is written again and again until the subscription has arrived.
+        """
         found: dict[str, tuple[int, bytes]] = {}
         for step in range(1000):
             writer.tick(*live_tick(time + step))
@@ -204,7 +207,7 @@ class TestTheServer:
         writer = LiveWriter(ring)
         viewer.shown(writer, 0.5)
         start = monotonic()
-        ride(writer, 500.0, 250)
+        write_ticks(writer, 500.0, 250)
         seconds = monotonic() - start
         writer.end(1.0, "ok", "")
         shown = [topic for topic, _, _ in rest(viewer)]
@@ -254,28 +257,28 @@ class TestTheServer:
         writer.end(1.0, "ok", "over")
         until(lambda: not server.alive)
         assert server.close()
-        told = [
+        results = [
             viewer.decoded(topic, content).reason
             for topic, _, content in rest(viewer)
             if topic == "/status"
         ]
-        assert told == ["over"]
+        assert results == ["over"]
 
     def test_it_goes_when_the_loop_is_killed(self, ring: Ring) -> None:
-        told, tell = os.pipe()
+        reading, writing = os.pipe()
 
         def run() -> None:
             process = FoxgloveProcess(ring, 0, HEAD, STARTED_NS)
-            os.write(tell, f"{process.pid} {process.port}".encode())
+            os.write(writing, f"{process.pid} {process.port}".encode())
             signal.pause()
             process.close()
 
         with child(run) as loop:
-            pid, port = map(int, os.read(told, 100).split())
+            pid, port = map(int, os.read(reading, 100).split())
             connect(f"ws://127.0.0.1:{port}", subprotocols=[PROTOCOL], proxy=None).close()
             os.kill(loop, signal.SIGKILL)
-        os.close(told)
-        os.close(tell)
+        os.close(reading)
+        os.close(writing)
         until(lambda: not running(pid))
 
     def test_a_port_that_is_taken_is_told_before_anything_starts(

@@ -1,4 +1,4 @@
-"""The reference receiver: what it follows, what it refuses, when it stops, and the command around it."""
+"""The reference receiver: what it follows and refuses, when it stops, and its command."""
 
 import json
 import socket
@@ -63,7 +63,11 @@ class TestFollowing:
 
     @given(st.floats(0.0, 0.29))
     def test_between_it_is_the_motion_itself(self, t: float) -> None:
-        """Hermite: h^4 / 384 of the fourth derivative in position and speed, h^2 / 8 of the second in acceleration."""
+        """The error of Hermite's interpolation has a bound.
+
+        h^4 / 384 of the fourth derivative in position and speed, h^2 / 8 of the second in
+        acceleration.
+        """
         command = following(30).at(START + LEAD + t)
         true = swinging(t)
         assert close(
@@ -236,16 +240,16 @@ class TestTheCommand:
     def test_it_tells_rate_lateness_and_the_trip_at_the_end(self) -> None:
         # a tenth of a second is sent, and up to three on a busy machine
         done = received(20, "--duration", "3.0")
-        told = json.loads(done.stdout)
+        report = json.loads(done.stdout)
         assert done.returncode == 1, "the sender stops before the receiver does"
-        assert "allowed: 0.1 s" in told["tripped"]
-        assert told["good"] > 0
-        assert told["rate_hz"] == round(told["good"] / 3.0, 2)
+        assert "allowed: 0.1 s" in report["tripped"]
+        assert report["good"] > 0
+        assert report["rate_hz"] == round(report["good"] / 3.0, 2)
         assert (
             -1e3 * LEAD
-            < told["lateness_p0_ms"]
-            <= told["lateness_p50_ms"]
-            <= told["lateness_p100_ms"]
+            < report["lateness_p0_ms"]
+            <= report["lateness_p50_ms"]
+            <= report["lateness_p100_ms"]
         )
 
     def test_nothing_received_is_no_success(self) -> None:

@@ -1,4 +1,4 @@
-"""The recorder behind the loop: what a log has at the end, and what is left when somebody is killed."""
+"""The recorder behind the loop: its log at the end, and what is left after a kill."""
 
 import os
 import signal
@@ -22,7 +22,7 @@ from atlas_cueing.recording import read_log
 from atlas_cueing.telemetry import LiveWriter, Ring, live_ring
 
 from ..logs import largest_file, recovered, times
-from ..riding import SharedClock, child, live_recorder, live_tick, ride
+from ..riding import SharedClock, child, live_recorder, live_tick, write_ticks
 
 RATE = 500.0  # Hz
 LOSS = 0.1  # s of ticks that a kill may cost
@@ -41,7 +41,7 @@ class TestTheProcess:
         process = RecorderProcess(ring, live_recorder(path))
         writer = LiveWriter(ring)
         writer.status(0.0, "running", "engaged")
-        ride(writer, RATE, 200)
+        write_ticks(writer, RATE, 200)
         assert process.alive
         writer.end(0.4, "ok", "over")
         assert process.finish() == Recorded("ok", "over", 200, 0)
@@ -61,7 +61,7 @@ class TestTheProcess:
     def test_a_loop_that_finishes_without_end_does_not_wait_for_ever(self, path: Path) -> None:
         ring = live_ring(2.0, RATE)
         process = RecorderProcess(ring, live_recorder(path))
-        ride(LiveWriter(ring), RATE, 5)
+        write_ticks(LiveWriter(ring), RATE, 5)
         assert process.finish().result == "loop_killed"
         assert len(times(read_log(path))) == 5
 
@@ -92,7 +92,7 @@ class TestTheProcess:
     def test_when_all_are_killed_the_part_has_all_but_a_tenth_of_a_second(
         self, tmp_path: Path
     ) -> None:
-        """At any moment between two flushes, by a clock that waits for a recorder which a busy machine does not run."""
+        """At any moment between two flushes, by a clock that waits for the recorder."""
         lost = []
         for ticks in range(75, 145, 10):
             path = tmp_path / f"{ticks}" / "run.mcap"
@@ -110,7 +110,7 @@ class TestTheProcess:
         process = RecorderProcess(ring, live_recorder(path))
         writer, part = LiveWriter(ring), path.with_name("run.mcap.part")
         opened = part.stat().st_size
-        ride(writer, RATE, 100)
+        write_ticks(writer, RATE, 100)
         until(lambda: part.stat().st_size > opened)
         os.kill(process.pid, signal.SIGKILL)
         until(lambda: not process.alive)
@@ -136,14 +136,14 @@ class TestTheProcess:
             process = RecorderProcess(ring, live_recorder(path))
         writer, part = LiveWriter(ring), path.with_name("run.mcap.part")
         opened = part.stat().st_size
-        ride(writer, RATE, 50)
+        write_ticks(writer, RATE, 50)
         until(lambda: part.stat().st_size > opened)
-        ride(writer, 4 * RATE, 1000)
-        told: list[str] = []
+        write_ticks(writer, 4 * RATE, 1000)
+        messages: list[str] = []
         until(
             lambda: bool(
-                told.append(capfd.readouterr().err)
-                or "nothing more is recorded: cannot write log" in "".join(told)
+                messages.append(capfd.readouterr().err)
+                or "nothing more is recorded: cannot write log" in "".join(messages)
             )
         )
         assert process.alive
@@ -201,24 +201,24 @@ def killed(
 
     The time of the last one that was.
     """
-    told, tell = os.pipe()
-    with child(partial(run, path, tell, clock)) as loop:
-        os.close(tell)
+    reading, writing = os.pipe()
+    with child(partial(run, path, writing, clock)) as loop:
+        os.close(writing)
         heard = b""
         while len(heard) < 8 * ticks:
-            heard += os.read(told, 8 * ticks - len(heard)) or pytest.fail(
+            heard += os.read(reading, 8 * ticks - len(heard)) or pytest.fail(
                 "the loop ended by itself"
             )
         kill(loop, signal.SIGKILL)
-    heard += os.read(told, 65536)  # a pipe holds no more
-    os.close(told)
+    heard += os.read(reading, 65536)  # a pipe holds no more
+    os.close(reading)
     return float(unpack("=d", heard[-8:])[0])
 
 
-def run(path: Path, tell: int, clock: SharedClock | None) -> None:
+def run(path: Path, writing: int, clock: SharedClock | None) -> None:
     """A loop with a recorder, in a group of its own.
 
-    Writes the time of each tick that is in the ring to `tell`.
+    Writes the time of each tick that is in the ring to `writing`.
     """
     os.setpgid(0, 0)
     if clock:
@@ -226,12 +226,12 @@ def run(path: Path, tell: int, clock: SharedClock | None) -> None:
     ring = live_ring(2.0, RATE)
     process = RecorderProcess(ring, live_recorder(path))
 
-    def told(time: float) -> None:
-        os.write(tell, pack("=d", time))
+    def report(time: float) -> None:
+        os.write(writing, pack("=d", time))
         if clock:
             clock.advance(1.0 / RATE)
 
-    ride(LiveWriter(ring), RATE, told=told)
+    write_ticks(LiveWriter(ring), RATE, written=report)
     assert process.alive
 
 

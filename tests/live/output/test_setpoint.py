@@ -1,4 +1,4 @@
-"""The set-point packet: byte for byte as its table says, whole or refused, and sent without waiting."""
+"""The set-point packet: byte for byte as in its table, whole or refused, sent without waiting."""
 
 import re
 import socket
