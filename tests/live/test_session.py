@@ -17,9 +17,9 @@ from atlas_cueing.errors import InputError
 from atlas_cueing.live.control.guard import Command
 from atlas_cueing.live.output.ring_recorder import RingRecorder
 from atlas_cueing.live.session import LiveOptions, LiveSession
-from atlas_cueing.run import RunResult
 from atlas_cueing.recording import read_log
 from atlas_cueing.review import review_log
+from atlas_cueing.run import RunResult
 from atlas_cueing.signals import LIVE_STATES
 
 from .rig import scenario
