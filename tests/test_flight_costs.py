@@ -18,10 +18,9 @@ import pytest
 from atlas_cueing.cueing.stage.mpc_qp import MpcProblem
 from atlas_cueing.cueing.stage.mpc_unconstrained import Plan
 from atlas_cueing.recording import McapRecorder
-from atlas_cueing.run import build_pipeline
+from atlas_cueing.run import build_pipeline, open_vehicle
 from atlas_cueing.scenario import Scenario, load_scenario
 from atlas_cueing.signals import Tick, VehicleState
-from atlas_cueing.vehicles import JsbsimVehicle
 
 ROOT = Path(__file__).parents[1]
 TOOL = ROOT / "tools" / "benchmark"
@@ -60,7 +59,7 @@ def scenario(folder: Path, duration: float, method: str = "blend") -> Scenario:
 
 
 def flight(of: Scenario) -> list[VehicleState]:
-    vehicle = JsbsimVehicle(of.flight)
+    vehicle = open_vehicle(of)
     states = [vehicle.state]
     while vehicle.advance():
         states.append(vehicle.state)

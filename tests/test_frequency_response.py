@@ -1,5 +1,6 @@
 """The tool that measures gain and phase: its arithmetic, and the pipeline's linear theory as a second derivation."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from math import degrees, isnan, pi
 from typing import Any
@@ -195,10 +196,11 @@ class Late:
     def __init__(self, scenario: Scenario, dt: float) -> None:
         self._pipeline, self._state = build_pipeline(scenario, dt), None
 
-    def step(self, state: Any) -> Any:
-        before, self._state = self._state or state, state
-        tick = self._pipeline.step(before)
-        return replace(tick, vehicle=state)
+    def block(self, states: Sequence[Any]) -> list[Any]:
+        before = [self._state or states[0], *states[:-1]]
+        self._state = states[-1]
+        late = self._pipeline.block(before)
+        return [replace(tick, vehicle=state) for tick, state in zip(late, states, strict=True)]
 
 
 @pytest.mark.usefixtures("quick")

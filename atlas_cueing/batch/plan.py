@@ -1,7 +1,6 @@
 """What a batch will fly: every run of every file, checked before anything runs."""
 
 import os
-import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import inf
@@ -9,15 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, ScenarioError
-from ..run import build_pipeline
+from ..run import build_pipeline, flight_length
 from ..scenario import Scenario, Variant, load_variants, scenario_files
-from ..vehicles import own_scripts
 from .run_id import run_id
 
 MANY = 1000  # runs; to check as many takes seconds
 MOST_REFUSED = 500  # runs of a file; what is wrong with that many is mostly one thing
-_LARGEST_SCRIPT = 20_000_000  # bytes; what JSBSim is given at most
-_NUMBER = rb"""\s*=\s*["']\s*([0-9.eE+-]+)\s*["']"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,61 +82,26 @@ def _add(
     """Put the runs of a file with those of the files before, or what is wrong with them."""
     refused = 0
     for variant in variants:
-        duration, step = _course(variant.scenario)
         try:
-            _check(variant.scenario, step)
-            name = run_id(variant.scenario)
+            run = _planned(file, variant)
         except InputError as error:
             wrong |= dict.fromkeys(f"{file}: {line}" for line in str(error).splitlines())
             refused += 1
             if refused == MOST_REFUSED:
                 break
             continue
-        runs.setdefault(
-            name, PlannedRun(name, file, variant.scenario, variant.settings, duration, step)
-        )
+        runs.setdefault(run.id, run)
 
 
-def _check(scenario: Scenario, step: float) -> None:
-    """Raises InputError for what flies only live, or on no platform at this step."""
-    _ = scenario.flight
+def _planned(file: Path, variant: Variant) -> PlannedRun:
+    """Check a run of a file as far as that goes without flying it.
+
+    Raises InputError for what flies only live, or on no platform at this step.
+    """
+    scenario = variant.scenario
+    flight = scenario.flight
+    step = flight.step()
     if not scenario.needs_whole_flight:
         build_pipeline(scenario, step)
-
-
-def _course(scenario: Scenario) -> tuple[float | None, float]:
-    """Length of the flight and its step, s, as far as the files tell.
-
-    A script may end earlier, or not load at all.
-    """
-    file = scenario.file
-    rate = file.vehicle.rate_hz or 120.0
-    if file.vehicle.script is None:
-        return file.duration_s, 1.0 / rate
-    script = file.vehicle.user_script(scenario.folder) or own_scripts()[file.vehicle.script]
-    start, end, dt = _script_course(script)
-    length = None if end is None else max(end - (start or 0.0), 0.0)
-    known = [time for time in (length, file.duration_s) if time is not None]
-    step = (
-        dt if dt is not None and 1e-4 <= dt <= 0.1 and file.vehicle.rate_hz is None else 1.0 / rate
-    )
-    return min(known, default=None), step
-
-
-def _script_course(script: Path) -> tuple[float | None, float | None, float | None]:
-    """Start, end and step that a script states, s."""
-    try:
-        with script.open("rb") as file:
-            run = re.search(rb"<run\b([^>]*)>", file.read(_LARGEST_SCRIPT))
-    except OSError:  # said in words when its content is asked for
-        run = None
-    text = run[1] if run else b""
-    return _number(b"start", text), _number(b"end", text), _number(b"dt", text)
-
-
-def _number(name: bytes, text: bytes) -> float | None:
-    found = re.search(rb"\b" + name + _NUMBER, text)
-    try:
-        return float(found[1]) if found else None
-    except ValueError:
-        return None
+    length = flight_length(flight, scenario.file.duration_s)
+    return PlannedRun(run_id(scenario), file, scenario, variant.settings, length, step)

@@ -1,12 +1,13 @@
 """What makes two runs the same: everything that their logs depend on."""
 
 from functools import cache
-from hashlib import sha256
+from hashlib import file_digest, sha256
 from importlib.metadata import version
+from pathlib import Path
 
+from ..errors import InputError
+from ..run import PACKAGES
 from ..scenario import Scenario
-
-PACKAGES = ("atlas_cueing", "jsbsim", "ruckig")  # whose versions a log depends on
 
 # of the hash: 2^48, so that among a million runs two are mixed up with probability 0.002
 _DIGITS = 12
@@ -18,12 +19,18 @@ def run_id(scenario: Scenario) -> str:
 
     A function of the resolved scenario, platform, script and versions.
     """
-    table = scenario.file.vehicle
-    flown = (table.script or table.aircraft or table.source).rsplit("/", 1)[-1].removesuffix(".xml")
-    readable = (
-        f"{_cut(scenario.name)}-{_plain(flown)[:_LONGEST_NAME]}-{scenario.file.cueing.method}"
-    )
-    return f"{readable}-{digest(scenario.attachments())[:_DIGITS]}"
+    flight = scenario.flight
+    parts = _cut(scenario.name), _plain(flight.name)[:_LONGEST_NAME], scenario.file.cueing.method
+    large = {f"file/{name}": _file_hash(path) for name, path in flight.large_files().items()}
+    return f"{'-'.join(parts)}-{digest(scenario.attachments() | large)[:_DIGITS]}"
+
+
+def _file_hash(path: Path) -> bytes:
+    try:
+        with path.open("rb") as file:
+            return file_digest(file, "sha256").digest()
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
 
 
 def _cut(name: str) -> str:

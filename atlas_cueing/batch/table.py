@@ -40,7 +40,7 @@ def _row(outcome: Outcome) -> dict[str, Any]:
         "run": run.id,
         "source": run.source.name,
         "scenario": run.scenario.name,
-        "vehicle": file.vehicle.script or file.vehicle.aircraft or file.vehicle.source,
+        "vehicle": file.vehicle.flown,
         "method": file.cueing.method,
         "platform": run.scenario.platform.name,
         **run.settings,

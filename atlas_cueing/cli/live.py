@@ -149,5 +149,5 @@ def _duration(asked: float | None, loaded: "Scenario") -> float:
     """
     if asked is not None:
         return asked
-    endless = loaded.file.vehicle.source == "flightgear"
+    endless = bool(loaded.live_flight.live_only) and not loaded.live_flight.ends_itself
     return loaded.file.duration_s if endless and loaded.file.duration_s is not None else inf

@@ -1,7 +1,8 @@
 """Opens the source that a scenario names."""
 
-from ..scenario import RecordedFlight, Scenario
-from ..vehicles import FlightgearFlight, JsbsimVehicle, SignalFlight, SignalVehicle
+from ..run import open_vehicle
+from ..scenario import Scenario
+from ..vehicles import FlightgearFlight
 from .input import FlightgearSource, Source, UdpReceiver, VehicleSource
 
 
@@ -12,13 +13,6 @@ def open_source(scenario: Scenario) -> Source:
     a damaged log, and VehicleError for a model that fails in its first state.
     """
     flight = scenario.live_flight
-    match flight:
-        case FlightgearFlight():
-            return FlightgearSource(UdpReceiver(flight.host, flight.port), flight.rate_hz)
-        case RecordedFlight():
-            return VehicleSource(flight.vehicle())
-        case SignalFlight():
-            return VehicleSource(SignalVehicle(flight))
-        case _:
-            with scenario.naming_file():
-                return VehicleSource(JsbsimVehicle(flight))
+    if isinstance(flight, FlightgearFlight):
+        return FlightgearSource(UdpReceiver(flight.host, flight.port), flight.rate_hz)
+    return VehicleSource(open_vehicle(scenario, live=True))

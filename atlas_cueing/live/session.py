@@ -4,12 +4,11 @@ import time
 from collections.abc import Callable, Sequence
 from contextlib import closing
 from dataclasses import asdict, dataclass
-from importlib.metadata import version
 from pathlib import Path
 
 from ..errors import InputError
 from ..recording import McapRecorder
-from ..run import Evaluation, LiveFigures, RunResult, build_pipeline, evaluate_log
+from ..run import Evaluation, LiveFigures, RunResult, build_pipeline, evaluate_log, open_recorder
 from ..scenario import Scenario
 from ..telemetry import LiveWriter, OperatorButtons, Ring, live_ring
 from .clock import MonotonicClock
@@ -153,27 +152,11 @@ class LiveSession:
         )
 
     def _recorder(self) -> McapRecorder:
-        scenario = self._scenario
-        return McapRecorder(
-            self._log,
-            head_S=scenario.platform.head_S,
-            metadata=self._metadata(),
-            attachments=scenario.attachments(),
-            skip_topics=scenario.file.recording.skip,
-            started_ns=self.started_ns,
+        rate = f"{self._options.rate:g}"
+        started = self.started_ns
+        return open_recorder(
+            self._scenario, self._log, started_ns=started, live="true", rate_hz=rate
         )
-
-    def _metadata(self) -> dict[str, str]:
-        scenario = self._scenario
-        versions = {
-            f"{name}_version": version(name) for name in ("atlas_cueing", "jsbsim", "ruckig")
-        }
-        names = {
-            "scenario": scenario.name,
-            "method": scenario.file.cueing.method,
-            "platform": scenario.platform.name,
-        }
-        return {**names, **versions, "live": "true", "rate_hz": f"{self._options.rate:g}"}
 
     def _evaluation(self, ticks: int) -> Evaluation:
         if ticks > MOST_EVALUATED or not self._log.exists():

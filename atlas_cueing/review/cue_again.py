@@ -1,13 +1,11 @@
 """The recorded vehicle of a log through another method, other parameters or another platform."""
 
 from collections.abc import Mapping, Sequence
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, LogError, OutputError, ScenarioError
-from ..recording import Log, McapRecorder
-from ..run import prepare
+from ..run import open_recorder, prepare, ticks
 from ..scenario import Scenario, recorded_vehicle
 from ..scenario.cueing_table import TABLES
 from ..scenario.load import resolve
@@ -45,11 +43,17 @@ def cue_again(path: str | Path, settings: Sequence[str], output: str | Path) -> 
             ) from error
         attachments = scenario.attachments()
     vehicle, pipeline = prepare(scenario, recorded)
-    recorder = _recorder(output, scenario, log, attachments)
+    recorder = open_recorder(
+        scenario,
+        output,
+        flown=log.metadata,
+        attachments=attachments,
+        recued_from=log.path.name,
+    )
     try:
-        recorder.append(pipeline.step(vehicle.state))
-        while vehicle.advance():
-            recorder.append(pipeline.step(vehicle.state))
+        for block in ticks(vehicle, pipeline):
+            for tick in block:
+                recorder.append(tick)
         for status in log.statuses:
             recorder.status(status.time, status.state, status.reason)
         recorder.close(log.metadata.get("result", ""), log.metadata.get("reason", ""))
@@ -86,27 +90,6 @@ def _changed(table: Mapping[str, Any], defaults: Mapping[str, Any]) -> dict[str,
         elif value != default:
             changed[key] = value
     return changed
-
-
-def _recorder(
-    output: Path, scenario: Scenario, log: Log, attachments: dict[str, bytes]
-) -> McapRecorder:
-    return McapRecorder(
-        output,
-        head_S=scenario.platform.head_S,
-        metadata={
-            **log.metadata,
-            "scenario": scenario.name,
-            "method": scenario.file.cueing.method,
-            "platform": scenario.platform.name,
-            "atlas_cueing_version": version("atlas_cueing"),
-            "ruckig_version": version("ruckig"),
-            "recued_from": log.path.name,
-        },
-        attachments=attachments,
-        chunk_ticks=scenario.file.recording.chunk_ticks,
-        skip_topics=scenario.file.recording.skip,
-    )
 
 
 def _refuse_flown(settings: Sequence[str]) -> None:

@@ -1,13 +1,20 @@
-"""TO WRITE."""
+"""Puts a run together from a scenario: vehicle, pipeline, recorder, evaluation.
+
+The composition root that run, batch, live and review have in common.
+"""
 
 from .build import build_pipeline, prepare
 from .evaluate import Evaluation, Evaluator, evaluate_flight, evaluate_log
 from .fly import run_scenario
+from .open_recorder import PACKAGES, open_recorder
+from .open_vehicle import flight_length, open_vehicle
 from .output import PAGE, check_output
 from .result import LiveFigures, RunResult
 from .stop_request import StopRequest
+from .ticks import ticks
 
 __all__ = [
+    "PACKAGES",
     "PAGE",
     "Evaluation",
     "Evaluator",
@@ -18,6 +25,10 @@ __all__ = [
     "check_output",
     "evaluate_flight",
     "evaluate_log",
+    "flight_length",
+    "open_recorder",
+    "open_vehicle",
     "prepare",
     "run_scenario",
+    "ticks",
 ]

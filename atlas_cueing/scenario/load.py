@@ -13,13 +13,14 @@ from ..cueing import DEFAULT_METHOD
 from ..errors import Mistake, ScenarioError
 from ..printable import is_name
 from .cueing_table import TABLES
+from .jsbsim_table import unsettable_inputs
 from .mistakes import MOST_SHOWN, SET, FileNamer, Key, dotted, mistakes_of, more, nearest
 from .overrides import Overrides, apply_overrides, parse_overrides, with_own
 from .platform_file import Platform, presets
 from .reading import TomlFiles, read_toml
 from .scenario import Scenario, ScenarioFile
 from .tables import ScenarioTable
-from .vehicle_table import unsettable_inputs, vehicle_rules
+from .vehicle_table import vehicle_rules
 
 T = TypeVar("T", bound=ScenarioTable)
 

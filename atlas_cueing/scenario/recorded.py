@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from math import hypot, isfinite
 from pathlib import Path
+from typing import ClassVar
 
 from ..errors import InputError
 from ..recording import Log, read_log
@@ -17,12 +18,23 @@ MAX_RECORDING = 256 * 2**20
 
 @dataclass(frozen=True, slots=True)
 class RecordedFlight:
-    """The vehicle of the log (MCAP) at `path`, played at its own rate."""
+    """The vehicle of the log (MCAP) at `log`, played at its own rate (implements Flight)."""
+
+    live_only: ClassVar[str] = (
+        "source = 'recording' flies only live: atlas-cueing live FILE; without a clock:"
+        " atlas-cueing recue LOG"
+    )
+    ends_itself: ClassVar[bool] = True
 
     log: Path
 
+    @property
+    def name(self) -> str:
+        """Name of the log, without its ending."""
+        return self.log.stem
+
     def vehicle(self) -> RecordedVehicle:
-        """The vehicle, every state of it checked.
+        """Build the vehicle, every state of it checked.
 
         Raises InputError when there is no such log, and as `recorded_vehicle`.
         """
@@ -31,6 +43,22 @@ class RecordedFlight:
                 f"log {self.log}: {'not a regular file' if self.log.exists() else 'no such file'}"
             )
         return recorded_vehicle(read_log(self.log, MAX_RECORDING), Bounds())
+
+    def length(self) -> float:
+        """Return the time from the first state to the last, s. Raises as `vehicle`."""
+        return self.vehicle().length
+
+    def step(self) -> float:
+        """Return the time between two states, s. Raises as `vehicle`."""
+        return self.vehicle().dt
+
+    def files(self) -> dict[str, Path]:
+        """Return nothing: a log is too large to carry along."""
+        return {}
+
+    def large_files(self) -> dict[str, Path]:
+        """Return the log, by its name."""
+        return {self.log.name: self.log}
 
 
 def recorded_vehicle(log: Log, bounds: Bounds | None = None) -> RecordedVehicle:

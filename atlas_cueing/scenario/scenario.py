@@ -1,6 +1,5 @@
 """The scenario file, and the scenario that it becomes together with its platform."""
 
-import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -12,15 +11,15 @@ from pydantic import BeforeValidator
 
 from ..cueing import DEFAULT_METHOD
 from ..errors import InputError, StartError
-from ..printable import is_name, utf8
+from ..printable import is_name
 from ..recording.recorder import MAX_CHUNK_TICKS
-from ..vehicles.jsbsim.private_copy import beside
-from ..vehicles.jsbsim.user_models import read_users, user_files, user_model
+from ..vehicles import Flight
+from ..vehicles.jsbsim.user_models import read_users
 from .cueing_table import TABLES, CueingTable
 from .mistakes import FileNamer, nearest
 from .platform_file import NAME, Platform, presets
 from .tables import ScenarioTable, number, object_to, refuse, text, whole
-from .vehicle_table import Flight, LiveFlight, VehicleTable
+from .vehicle_table import VehicleTable
 
 # The other topics are what the run is evaluated from.
 DISPENSABLE_TOPICS = ("/tf",)
@@ -122,10 +121,12 @@ class Scenario:
     def flight(self) -> Flight:
         """What the vehicle flies without a clock.
 
-        Raises InputError when that flies only live, or is a script not trusted.
+        Raises InputError when that flies only live, or is a program that is not trusted.
         """
-        self._check_trust()
-        return self.file.vehicle.flight(self.file.duration_s, self.folder)
+        flight = self.live_flight
+        if flight.live_only:
+            raise InputError(flight.live_only)
+        return flight
 
     @property
     def needs_whole_flight(self) -> bool:
@@ -133,19 +134,23 @@ class Scenario:
         return self.file.cueing.declaration.needs_flight
 
     @property
-    def live_flight(self) -> LiveFlight:
+    def live_flight(self) -> Flight:
         """What the vehicle flies in real time, whatever its source.
 
-        Raises InputError for a script that is not trusted.
+        Raises InputError for a program that is not trusted.
         """
         self._check_trust()
-        return self.file.vehicle.live_flight(self.file.duration_s, self.folder)
+        return self._flight
+
+    @property
+    def _flight(self) -> Flight:
+        return self.file.vehicle.flight(self.folder)
 
     def inputs(self) -> tuple[Path, ...]:
         """Return the files beside the scenario's own that it is made of; they may be missing."""
-        vehicle, platform = self.file.vehicle, self.file.platform.file
-        files = [self.folder / name for name in (platform, vehicle.log) if name is not None]
-        return (*files, *self._own_files().values())
+        flight, platform = self._flight, self.file.platform.file
+        files = [] if platform is None else [self.folder / platform]
+        return (*files, *flight.large_files().values(), *flight.files().values())
 
     @contextmanager
     def naming_file(self) -> Iterator[None]:
@@ -156,18 +161,13 @@ class Scenario:
             raise InputError(f"{self.source}: vehicle.{error}") from error
 
     def _check_trust(self) -> None:
-        """A script or a model can hold whatever JSBSim understands: it is a program of whoever wrote it."""
-        script, model = self._users()
-        if (script or model) and not self.trust_models:
+        program = self.file.vehicle.program(self.folder)
+        if program and not self.trust_models:
+            kind, path = program
             raise InputError(
-                f"{script or model}: this {'script' if script else 'aircraft'} is not one of"
-                " JSBSim's own, and it is a program; if you trust whoever wrote it, fly it with"
-                " --trust-models"
+                f"{path}: this {kind} is not one of JSBSim's own, and it is a program; if you trust"
+                " whoever wrote it, fly it with --trust-models"
             )
-
-    def _users(self) -> tuple[Path | None, Path | None]:
-        vehicle = self.file.vehicle
-        return vehicle.user_script(self.folder), vehicle.user_aircraft(self.folder)
 
     def scenario_toml(self) -> str:
         """The scenario with all defaults written out.
@@ -175,13 +175,8 @@ class Scenario:
         Its platform is `platform.toml`, and a user's script lies beside it.
         """
         table = _plain(self.file)
+        table["vehicle"] = self.file.vehicle.portable(self.folder)
         table["platform"] = {"file": "platform.toml"}
-        if not self.file.vehicle.input:
-            del table["vehicle"]["input"]  # a script must not have any
-        script = self.file.vehicle.user_script(self.folder)
-        if script is not None:
-            # never mistaken for one of JSBSim's own
-            table["vehicle"]["script"] = f"./{utf8(script.name)}"
         return tomli_w.dumps(table)
 
     def platform_toml(self) -> str:
@@ -190,40 +185,14 @@ class Scenario:
 
     def attachments(self) -> dict[str, bytes]:
         """Files that fly this scenario again when put into one folder: path in it to content."""
-        files = _read_all(self._own_files())
+        files = _read_all(self._flight.files())
         tables = {"scenario.toml": self.scenario_toml(), "platform.toml": self.platform_toml()}
         return files | {name: table.encode(errors="replace") for name, table in tables.items()}
-
-    def _own_files(self) -> dict[str, Path]:
-        """Return the user's script and aircraft with all that they name: path in the folder to file."""
-        files: dict[str, Path] = {}
-        script, model = self._users()
-        if script is not None:
-            files[utf8(script.name)] = script
-            files |= _beside(script, read_users(script), self.folder)
-        if model is not None:
-            files |= user_files(self.file.vehicle.aircraft or "", self.folder)
-        return files
 
 
 def _plain(table: ScenarioTable) -> dict[str, Any]:
     """The table as TOML can hold it: keys without a value left out."""
     return table.model_dump(exclude_none=True)
-
-
-def _beside(script: Path, content: bytes, folder: Path) -> dict[str, Path]:
-    """What a script names of the user's: its file of initial conditions beside it, and its aircraft."""
-    initialize, aircraft = _named(b"initialize", content), _named(b"aircraft", content)
-    path = beside(script, initialize) if initialize else None
-    files = {path.name: path} if path else {}
-    if aircraft and user_model(aircraft, folder):
-        files |= user_files(aircraft, folder, "" if path else initialize)
-    return files
-
-
-def _named(key: bytes, content: bytes) -> str:
-    named = re.search(key + rb"\s*=\s*[\"']([\w./-]+)[\"']", content)
-    return named[1].decode() if named else ""
 
 
 def _read_all(files: dict[str, Path]) -> dict[str, bytes]:

@@ -1,14 +1,17 @@
-"""One `[[vehicle.signal]]` table."""
+"""The `[vehicle]` table of test signals, with its `[[vehicle.signal]]` tables."""
 
 from collections.abc import Collection
 from math import radians
-from typing import Annotated, Any, TypeAlias
+from pathlib import Path
+from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import BeforeValidator, model_validator
 
 from ..errors import InputError
-from ..vehicles import Signal
+from ..vehicles import Signal, SignalFlight
 from ..vehicles.signal_vehicle import DEFAULT_RAMP, FORCE_AXES, RATE_AXES, SHAPES, Shape, SignalAxis
+from .mistakes import Key
+from .source_table import SourceTable, tables
 from .tables import ScenarioTable, number, object_to, refuse
 
 Time: TypeAlias = Annotated[float, number(0.0, 86400.0)]  # s; a day
@@ -91,3 +94,32 @@ def signal_rules(signal: dict[str, Any]) -> list[tuple[str, str]]:
         (key, f"missing, needed with {owner}" if belongs else f"not with {owner}")
         for key, belongs, owner in wrong
     ]
+
+
+class SignalFlightTable(SourceTable):
+    """`[vehicle]` of test signals, at least one."""
+
+    source: Literal["signal"] = "signal"
+    rate_hz: Annotated[float, number(10.0, 1000.0)] | None = None
+    signal: Annotated[tuple[SignalTable, ...], tables("signal")] | None = None
+    force_follows_attitude: bool | None = None
+
+    def flight(self, folder: Path) -> SignalFlight:
+        """Return the signals in SI."""
+        _ = folder
+        signals = tuple(table.signal() for table in self.signal or ())
+        return SignalFlight(signals, self.rate_hz, self.force_follows_attitude is not False)
+
+    @classmethod
+    def rules(cls, vehicle: dict[str, Any], data: dict[str, Any]) -> list[tuple[Key, str]]:
+        """Find missing and superfluous keys of each signal."""
+        _ = data
+        signals = vehicle.get("signal", [])
+        if signals == []:
+            return [(("vehicle", "signal"), "missing, at least one [[vehicle.signal]]")]
+        return [
+            (("vehicle", "signal", i, key), allowed)
+            for i, signal in enumerate(signals if isinstance(signals, list) else ())
+            if isinstance(signal, dict)
+            for key, allowed in signal_rules(signal)
+        ]

@@ -156,7 +156,7 @@ def _settle(data: dict[str, Any], scenario: Scenario, settings: Overrides) -> No
     Checked once, and kept once.
     """
     for name in _LISTS:
-        checked = getattr(scenario.file.vehicle, name)
+        checked = getattr(scenario.file.vehicle, name, None)
         set_anew = any(key[:2] in (("vehicle",), ("vehicle", name)) for key in settings)
         if checked and not set_anew:
             data["vehicle"][name] = checked

@@ -1,27 +1,31 @@
 """Sources of vehicle states; the only place that knows feet, pounds and knots.
 
-A `ScriptFlight` or an `AircraftFlight` says what to fly and `JsbsimVehicle` flies it, as a
-`signals.Vehicle`; a `SignalFlight` is flown by a `SignalVehicle`, and a `RecordedVehicle` plays
-recorded states back. `flightgear` reads the packets of a simulator elsewhere.
+Each source is a `Flight`, which knows what it flies and builds its `signals.Vehicle`: a script or
+an aircraft in JSBSim, test signals, and the packets of a simulator elsewhere. `RecordedVehicle`
+plays recorded states back. `LimitedDuration` ends any of them after the time that is asked for.
 """
 
 from .bounds import Bounds
+from .flight import Flight
 from .flightgear import FlightgearFlight
 from .flown_ahead import FlownAhead
 from .jsbsim.flights import AircraftFlight, InitialConditions, ScriptFlight, TimedInput
 from .jsbsim.jsbsim_vehicle import JsbsimVehicle
 from .jsbsim.library import own_aircraft, own_scripts, suggestion
 from .jsbsim.loading import input_objections
+from .limited_duration import LimitedDuration
 from .recorded_vehicle import RecordedVehicle
 from .signal_vehicle import Signal, SignalFlight, SignalVehicle
 
 __all__ = [
     "AircraftFlight",
     "Bounds",
+    "Flight",
     "FlightgearFlight",
     "FlownAhead",
     "InitialConditions",
     "JsbsimVehicle",
+    "LimitedDuration",
     "RecordedVehicle",
     "ScriptFlight",
     "Signal",

@@ -17,11 +17,13 @@ force to 4e-6 m/s^2.
 
 from dataclasses import dataclass
 from math import cos, inf, pi, sin, sqrt
+from pathlib import Path
 from struct import Struct
+from typing import ClassVar
 
-from ..errors import AtlasError
+from ..errors import AtlasError, InputError
 from ..rotation import Vec3, from_euler
-from ..signals import STANDARD_GRAVITY, VehicleState
+from ..signals import STANDARD_GRAVITY, Vehicle, VehicleState
 from .bounds import Bounds
 from .jsbsim.readings import METRES_PER_FOOT
 
@@ -54,14 +56,42 @@ class PacketError(AtlasError):
 
 @dataclass(frozen=True, slots=True)
 class FlightgearFlight:
-    """A vehicle that FlightGear or JSBSim flies elsewhere and sends to UDP `port` of the local address `host`.
+    """A vehicle that FlightGear or JSBSim flies elsewhere and sends here (implements Flight).
 
-    rate_hz: packets per second as the sender was told; what it really sends is measured.
+    host, port: local address and UDP port that packets come to.
+    rate_hz: nominal packets per second; what the sender really sends is measured.
     """
+
+    live_only: ClassVar[str] = "source = 'flightgear' flies only live: atlas-cueing live FILE"
+    ends_itself: ClassVar[bool] = False
 
     host: str = LOOPBACK
     port: int = DEFAULT_PORT
     rate_hz: float = DEFAULT_RATE_HZ
+
+    @property
+    def name(self) -> str:
+        """Return the word for all of them."""
+        return "flightgear"
+
+    def vehicle(self) -> Vehicle:
+        """Raise InputError: the simulator owns its time, so it cannot be stepped."""
+        raise InputError(self.live_only)
+
+    def length(self) -> None:
+        """Return nothing: the simulator may send for ever."""
+
+    def step(self) -> float:
+        """Return the nominal time between two packets, s."""
+        return 1.0 / self.rate_hz
+
+    def files(self) -> dict[str, Path]:
+        """Return nothing: what is flown is known elsewhere."""
+        return {}
+
+    def large_files(self) -> dict[str, Path]:
+        """Return nothing: what is flown is known elsewhere."""
+        return {}
 
 
 def decode(packet: bytes, time: float, bounds: Bounds) -> VehicleState:

@@ -43,6 +43,11 @@ class RecordedVehicle:
         return self._dt
 
     @property
+    def length(self) -> float:
+        """Time from the first state to the last, s."""
+        return self._states[-1].time - self._states[0].time
+
+    @property
     def state(self) -> VehicleState:
         """The present state."""
         return self._states[self._now]

@@ -18,8 +18,9 @@ former is our reading, not a quotation.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import expm1, floor, inf, log, pi, sin
-from typing import Literal, TypeAlias
+from math import expm1, inf, log, pi, sin
+from pathlib import Path
+from typing import ClassVar, Literal, TypeAlias
 
 from ..errors import InputError, VehicleError
 from ..rotation import (
@@ -34,7 +35,7 @@ from ..rotation import (
     scale,
     up_in_body,
 )
-from ..signals import STANDARD_GRAVITY, VehicleState
+from ..signals import STANDARD_GRAVITY, Vehicle, VehicleState
 from .bounds import Bounds
 from .jsbsim.flights import DEFAULT_RATE_HZ, MAX_RATE_HZ, MIN_RATE_HZ
 
@@ -51,7 +52,6 @@ MIN_STEPS_PER_PERIOD = 8  # of the highest frequency; with fewer a sine is no lo
 
 # of one step; the attitude is then off by 5e-7 of its swing at 8 steps a period, by 4e-10 at 48
 _SUBSTEPS = 4
-_STEP_TOLERANCE = 1e-6  # steps; a duration of n dt is n steps however it was rounded
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,16 +158,42 @@ class Signal:
 
 @dataclass(frozen=True, slots=True)
 class SignalFlight:
-    """Signals to fly at `rate_hz` steps per second for `duration` s.
+    """Signals to fly at `rate_hz` steps per second; None for the default (implements Flight).
 
-    None stands for the default rate, and for the end of the last signal. Without
-    `force_follows_attitude` the force is held.
+    Without `force_follows_attitude` the force is held.
     """
+
+    live_only: ClassVar[str] = ""
+    ends_itself: ClassVar[bool] = False
 
     signals: tuple[Signal, ...]
     rate_hz: float | None = None
-    duration: float | None = None
     force_follows_attitude: bool = True
+
+    @property
+    def name(self) -> str:
+        """Return the word for all of them."""
+        return "signal"
+
+    def vehicle(self) -> Vehicle:
+        """Build the vehicle. Raises InputError for signals that cannot be flown."""
+        return SignalVehicle(self)
+
+    def length(self) -> float | None:
+        """Return the end of the last signal, s; None without signals."""
+        return max((signal.time + signal.duration for signal in self.signals), default=None)
+
+    def step(self) -> float:
+        """Return the time between two states, s."""
+        return 1.0 / (self.rate_hz or DEFAULT_RATE_HZ)
+
+    def files(self) -> dict[str, Path]:
+        """Return nothing: the scenario holds the signals."""
+        return {}
+
+    def large_files(self) -> dict[str, Path]:
+        """Return nothing: the scenario holds the signals."""
+        return {}
 
 
 class SignalVehicle:
@@ -184,13 +210,8 @@ class SignalVehicle:
     def __init__(self, flight: SignalFlight, bounds: Bounds | None = None) -> None:
         _check(flight)
         rate_hz = flight.rate_hz or DEFAULT_RATE_HZ
-        end = (
-            max(signal.time + signal.duration for signal in flight.signals)
-            if flight.duration is None
-            else flight.duration
-        )
         self._bounds = Bounds() if bounds is None else bounds
-        self._dt, self._last_step = 1.0 / rate_hz, floor(end * rate_hz + _STEP_TOLERANCE)
+        self._dt = 1.0 / rate_hz
         self._follows = flight.force_follows_attitude
         self._rates, self._forces = (
             _of_axes(flight.signals, axes) for axes in (RATE_AXES, FORCE_AXES)
@@ -210,9 +231,7 @@ class SignalVehicle:
         return self._state
 
     def advance(self) -> bool:
-        """Go one step on; False when the flight is over."""
-        if self._step >= self._last_step:
-            return False
+        """Go one step on, for ever. Raises VehicleError when the state is not believable."""
         if self._turning:
             self._turn()
         state = self._at(self._step + 1)
@@ -270,10 +289,6 @@ def _check(flight: SignalFlight) -> None:
         raise InputError(
             f"rate {rate_hz:g} Hz, allowed: {MIN_RATE_HZ:g} <= rate_hz <= {MAX_RATE_HZ:g}"
         )
-    if not flight.signals and flight.duration is None:
-        raise InputError("a flight without signals has no end of its own; allowed: a duration")
-    if flight.duration is not None and not 0.0 < flight.duration < inf:
-        raise InputError(f"duration = {flight.duration} s, must be positive and finite")
     highest = 2.0 * pi * rate_hz / MIN_STEPS_PER_PERIOD
     for signal in flight.signals:
         signal.check()

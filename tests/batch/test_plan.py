@@ -66,10 +66,12 @@ def test_what_spoils_many_runs_is_told_without_checking_them_all(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     checked = []
-    check = planning._check
+    build = planning.build_pipeline
     monkeypatch.setattr(planning, "MOST_REFUSED", 3)
     monkeypatch.setattr(
-        planning, "_check", lambda scenario, step: (checked.append(step), check(scenario, step))
+        planning,
+        "build_pipeline",
+        lambda scenario, step: (checked.append(step), build(scenario, step)),
     )
     same = "\n".join(
         f"platform.wheel.{i}.contact = [[1, 0, 0]]\nplatform.wheel.{i}.drive = [[0, 1, 0]]"

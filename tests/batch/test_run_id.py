@@ -33,10 +33,11 @@ def test_whatever_changes_the_log_changes_it(load: Load, monkeypatch: pytest.Mon
 def test_a_users_script_counts_by_its_content(load: Load, tmp_path: Path) -> None:
     (tmp_path / "my flight.xml").write_text("<runscript/>")
     load()
-    first = run_id(load_scenario(tmp_path / "s.toml", ["vehicle.script=my flight.xml"]))
+    settings = ["vehicle.script=my flight.xml"]
+    first = run_id(load_scenario(tmp_path / "s.toml", settings, trust_models=True))
     assert first.startswith("short-my_flight-blend-")
     (tmp_path / "my flight.xml").write_text("<runscript />")
-    assert run_id(load_scenario(tmp_path / "s.toml", ["vehicle.script=my flight.xml"])) != first
+    assert run_id(load_scenario(tmp_path / "s.toml", settings, trust_models=True)) != first
 
 
 def test_names_and_contents_of_files_do_not_run_into_each_other() -> None:

@@ -18,6 +18,7 @@ from atlas_cueing.recording import McapRecorder, read_log
 from atlas_cueing.rotation import IDENTITY, Quat, Vec3, exp
 from atlas_cueing.run import RunResult, run_scenario
 from atlas_cueing.run import fly as run_module
+from atlas_cueing.run.ticks import BLOCK
 from atlas_cueing.scenario import Scenario, load_scenario
 from atlas_cueing.signals import STANDARD_GRAVITY, Tick, VehicleState
 
@@ -65,7 +66,7 @@ def fly(load: Load, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Fly:
     """Run the scenario with a double in the place of JSBSim."""
 
     def run(vehicle: Double) -> RunResult:
-        monkeypatch.setattr(run_module, "JsbsimVehicle", lambda _: vehicle)
+        monkeypatch.setattr(run_module, "open_vehicle", lambda _: vehicle)
         return run_scenario(load(), tmp_path / "log.mcap")
 
     return run
@@ -172,7 +173,7 @@ def test_a_vehicle_that_fails_at_once(
     def fail(_: object) -> None:
         raise VehicleError(0.0, "no trim")
 
-    monkeypatch.setattr(run_module, "JsbsimVehicle", fail)
+    monkeypatch.setattr(run_module, "open_vehicle", fail)
     result = run_scenario(load(), tmp_path / "log.mcap")
     assert (result.result, result.ticks, result.duration) == ("vehicle_failed", 0, 0.0)
     assert read_log(result.log).metadata["reason"] == "vehicle failed at 0.000 s: no trim"
@@ -266,7 +267,7 @@ def test_a_turn_that_the_rates_explain_is_no_jump(fly: Fly) -> None:
 def test_progress_is_told_the_flight_time(load: Load, tmp_path: Path) -> None:
     times: list[float] = []
     run_scenario(load("vehicle.rate_hz=1000"), tmp_path / "log.mcap", progress=times.append)
-    assert len(times) == -(-1001 // run_module.BLOCK)
+    assert len(times) == -(-1001 // BLOCK)
     assert times == sorted(times)
     assert times[-1] <= 1.0
 
@@ -313,7 +314,7 @@ def test_a_flight_that_fails_is_planned_up_to_there(
     load: Load, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     vehicle = Double(event=raising(VehicleError(0.5, "fell apart"), at=50))
-    monkeypatch.setattr(run_module, "JsbsimVehicle", lambda _: vehicle)
+    monkeypatch.setattr(run_module, "open_vehicle", lambda _: vehicle)
     result = run_scenario(load("cueing.method=preview"), tmp_path / "log.mcap")
     assert (result.result, result.ticks) == ("vehicle_failed", 50)
     assert "fell apart" in result.reason
@@ -325,7 +326,7 @@ def test_a_flight_without_a_plan_writes_nothing(
 ) -> None:
     vehicle = Double()
     vehicle.rate = (1e7, 0.0, 0.0)
-    monkeypatch.setattr(run_module, "JsbsimVehicle", lambda _: vehicle)
+    monkeypatch.setattr(run_module, "open_vehicle", lambda _: vehicle)
     with pytest.raises(InputError, match="no plan"):
         run_scenario(load("cueing.method=preview"), tmp_path / "log.mcap")
     assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]

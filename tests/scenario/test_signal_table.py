@@ -7,8 +7,7 @@ import pytest
 
 from atlas_cueing.run import run_scenario
 from atlas_cueing.scenario import load_scenario
-from atlas_cueing.scenario.vehicle_table import Flight
-from atlas_cueing.vehicles import Signal, SignalFlight
+from atlas_cueing.vehicles import Flight, Signal, SignalFlight
 
 from .conftest import Refused
 from .texts import SCRIPT, SIGNALS
@@ -23,11 +22,9 @@ def load(folder: Path, text: str) -> Flight:
 def test_signals_in_si(tmp_path: Path) -> None:
     sweep = Signal("roll_rate", "sweep", radians(90), 0.5, 2.0, 0.5, 0.5, 5.0)
     step = Signal("force_y", "step", -2.0, 0.0, 1.0)
-    assert load(tmp_path, SIGNALS) == SignalFlight((sweep, step), 50.0, None, False)
+    assert load(tmp_path, SIGNALS) == SignalFlight((sweep, step), 50.0, False)
     plain = SIGNALS.replace("rate_hz = 50\n", "").replace("force_follows_attitude = false\n", "")
-    assert load(tmp_path, f"duration_s = 9\n{plain}") == SignalFlight(
-        (sweep, step), None, 9.0, True
-    )
+    assert load(tmp_path, f"duration_s = 9\n{plain}") == SignalFlight((sweep, step), None, True)
 
 
 def test_signals_fly_and_their_log_flies_again(tmp_path: Path) -> None:

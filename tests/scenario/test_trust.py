@@ -39,7 +39,7 @@ def test_it_flies_with_trust(users: Path) -> None:
     assert (
         trusted.flight
         == trusted.live_flight
-        == ScriptFlight(users.parent / "mine.xml", None, 0.5, users.parent)
+        == ScriptFlight(users.parent / "mine.xml", None, users.parent)
     )
 
 

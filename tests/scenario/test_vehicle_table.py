@@ -6,9 +6,9 @@ import pytest
 from atlas_cueing.errors import InputError, ScenarioError
 from atlas_cueing.run import run_scenario
 from atlas_cueing.scenario import RecordedFlight, load_scenario, load_variants
-from atlas_cueing.scenario.vehicle_table import Flight
 from atlas_cueing.vehicles import (
     AircraftFlight,
+    Flight,
     FlightgearFlight,
     InitialConditions,
     ScriptFlight,
@@ -28,9 +28,9 @@ def load(folder: Path, text: str) -> Flight:
 
 
 def test_own_script(tmp_path: Path) -> None:
-    assert load(tmp_path, SCRIPT) == ScriptFlight(own_scripts()["c1722"], None, 0.5)
+    assert load(tmp_path, SCRIPT) == ScriptFlight(own_scripts()["c1722"])
     faster = SCRIPT.replace('"c1722"', '"c1722"\nrate_hz = 240').replace("duration_s = 0.5", "")
-    assert load(tmp_path, faster) == ScriptFlight(own_scripts()["c1722"], 240.0, None)
+    assert load(tmp_path, faster) == ScriptFlight(own_scripts()["c1722"], 240.0)
 
 
 def test_aircraft_in_si(tmp_path: Path) -> None:
@@ -49,7 +49,7 @@ def test_aircraft_in_si(tmp_path: Path) -> None:
         TimedInput(0.1, "fcs/elevator-cmd-norm", -0.2, 0.0),
         TimedInput(0.2, "fcs/aileron-cmd-norm", 1.0, 0.25),
     )
-    assert load(tmp_path, AIRCRAFT) == AircraftFlight("c172x", initial, inputs, 60.0, 0.5)
+    assert load(tmp_path, AIRCRAFT) == AircraftFlight("c172x", initial, inputs, 60.0)
 
 
 def test_defaults_are_those_of_the_vehicle(tmp_path: Path) -> None:
@@ -69,15 +69,15 @@ def test_script_beside_the_scenario(tmp_path: Path) -> None:
     script = tmp_path / "scripts" / "mine.xml"
     script.write_text(USER_SCRIPT.format(initial="reset00"))
     assert load(tmp_path, SCRIPT.replace("c1722", "scripts/mine.xml")) == ScriptFlight(
-        script, None, 0.5, tmp_path
+        script, None, tmp_path
     )
 
 
 def test_own_name_wins_over_a_file(tmp_path: Path) -> None:
     (tmp_path / "c1722").write_text(USER_SCRIPT)
-    assert load(tmp_path, SCRIPT) == ScriptFlight(own_scripts()["c1722"], None, 0.5)
+    assert load(tmp_path, SCRIPT) == ScriptFlight(own_scripts()["c1722"])
     assert load(tmp_path, SCRIPT.replace("c1722", "./c1722")) == ScriptFlight(
-        tmp_path / "c1722", None, 0.5, tmp_path
+        tmp_path / "c1722", None, tmp_path
     )
 
 

@@ -8,20 +8,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from atlas_cueing.signals import Vehicle, VehicleState
-from atlas_cueing.vehicles import AircraftFlight, InitialConditions, TimedInput
+from atlas_cueing.vehicles import AircraftFlight, InitialConditions, LimitedDuration, TimedInput
 
 CRUISE = InitialConditions(altitude=1500.0, airspeed=55.0, trim=True)
 
 
-def cessna(
-    *inputs: TimedInput, duration: float = 2.0, initial: InitialConditions = CRUISE
-) -> AircraftFlight:
+def cessna(*inputs: TimedInput, initial: InitialConditions = CRUISE) -> AircraftFlight:
     """A Cessna 172 in level flight, with timed inputs."""
-    return AircraftFlight("c172x", initial, inputs, duration=duration)
+    return AircraftFlight("c172x", initial, inputs)
 
 
-def fly(vehicle: Vehicle) -> list[VehicleState]:
-    """All states of a flight."""
+def fly(vehicle: Vehicle, duration: float = 2.0) -> list[VehicleState]:
+    """All states of a flight, which is over after `duration` s at the latest."""
+    vehicle = LimitedDuration(vehicle, duration)
     states = [vehicle.state]
     while vehicle.advance():
         states.append(vehicle.state)

@@ -11,8 +11,8 @@ from scipy.spatial.transform import Rotation
 
 from atlas_cueing.errors import InputError, VehicleError
 from atlas_cueing.rotation import geodesic, norm, to_euler
-from atlas_cueing.signals import STANDARD_GRAVITY, Vehicle
-from atlas_cueing.vehicles import Bounds, Signal, SignalFlight, SignalVehicle
+from atlas_cueing.signals import STANDARD_GRAVITY, Vehicle, VehicleState
+from atlas_cueing.vehicles import Bounds, LimitedDuration, Signal, SignalFlight, SignalVehicle
 from atlas_cueing.vehicles.signal_vehicle import (
     FORCE_AXES,
     MIN_STEPS_PER_PERIOD,
@@ -21,7 +21,7 @@ from atlas_cueing.vehicles.signal_vehicle import (
     SignalAxis,
 )
 
-from .flying import fly
+from . import flying
 
 SINE = Signal("pitch_rate", "sine", 0.2, time=0.5, duration=8.0, ramp=1.0, frequency=3.0)
 SWEEP = Signal(
@@ -38,8 +38,13 @@ def sampled(signal: Signal, dt: float, end: float = 10.0) -> NDArray[np.float64]
 
 def vehicle(
     *signals: Signal, rate_hz: float = 120.0, duration: float | None = None, follows: bool = True
-) -> SignalVehicle:
-    return SignalVehicle(SignalFlight(signals, rate_hz, duration, follows))
+) -> LimitedDuration:
+    flight = SignalFlight(signals, rate_hz, follows)
+    return LimitedDuration(flight.vehicle(), duration or flight.length() or 0.0)
+
+
+def fly(vehicle: Vehicle) -> list[VehicleState]:
+    return flying.fly(vehicle, 100.0)
 
 
 @EACH
@@ -201,12 +206,12 @@ def test_it_begins_at_rest_and_ends_with_its_last_signal() -> None:
     assert flown.state == states[-1]
 
 
-def test_a_duration_counts_in_steps() -> None:
-    assert len(fly(vehicle(SINE, rate_hz=100.0, duration=0.29))) == 30  # 0.29 * 100 is less than 29
-    assert len(fly(vehicle(SINE, rate_hz=10.0, duration=0.3))) == 4
-    assert len(fly(vehicle(SINE, rate_hz=10.0, duration=0.39))) == 4
-    # the default rate; no signals, no motion
-    assert len(fly(SignalVehicle(SignalFlight((), None, 0.5)))) == 61
+def test_it_goes_on_after_its_signals_until_somebody_ends_it() -> None:
+    flight = SignalFlight((STEP,))
+    assert (flight.ends_itself, flight.length(), flight.step()) == (False, 8.5, 1.0 / 120.0)
+    after = flying.fly(flight.vehicle(), 20.0)
+    assert len(after) == 20 * 120 + 1
+    assert {state.w_NB_B for state in after if state.time > 8.5} == {(0.0, 0.0, 0.0)}
 
 
 def test_many_turns_keep_unit_and_sign() -> None:
@@ -267,9 +272,6 @@ def test_a_bad_signal_is_refused(change: dict[str, object], message: str) -> Non
     [
         (SignalFlight((SINE,), 9.0), "rate 9 Hz, allowed: 10 <= rate_hz <= 10000"),
         (SignalFlight((SINE,), nan), "rate nan Hz"),
-        (SignalFlight((SINE,), None, 0.0), "duration = 0.0 s, must be positive and finite"),
-        (SignalFlight((SINE,), None, inf), "duration = inf s"),
-        (SignalFlight(()), "a flight without signals has no end of its own"),
     ],
 )
 def test_a_bad_flight_is_refused(flight: SignalFlight, message: str) -> None:

@@ -13,10 +13,10 @@ FLY = """
 import sys
 from pathlib import Path
 from atlas_cueing.errors import AtlasError
-from atlas_cueing.vehicles import JsbsimVehicle, ScriptFlight
+from atlas_cueing.vehicles import JsbsimVehicle, LimitedDuration, ScriptFlight
 for argument in sys.argv[2:]:
     try:
-        vehicle = JsbsimVehicle(ScriptFlight(Path(argument), duration=float(sys.argv[1])))
+        vehicle = LimitedDuration(JsbsimVehicle(ScriptFlight(Path(argument))), float(sys.argv[1]))
         while vehicle.advance():
             pass
     except AtlasError:

@@ -9,6 +9,7 @@ what comes on top is the machine's (a slice of 4 ms for someone else).
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
+from itertools import chain
 from statistics import median
 from time import process_time
 from typing import Any
@@ -18,10 +19,9 @@ import numpy as np
 from atlas_cueing.cueing import CAUSAL_METHODS
 from atlas_cueing.live.control.command import command_of
 from atlas_cueing.live.control.guard import Guard
-from atlas_cueing.run import build_pipeline
+from atlas_cueing.run import build_pipeline, open_vehicle, ticks
 from atlas_cueing.scenario import Scenario
 from atlas_cueing.signals import Tick, VehicleState
-from atlas_cueing.vehicles import JsbsimVehicle
 
 from .effort import Bench
 from .flights import STAGED, script_scenario
@@ -75,22 +75,22 @@ def measure(bench: Bench) -> Iterator[Row]:
         for name in CAUSAL_METHODS
     }
     blend = scenarios["blend"]
-    ticks = flown(blend)
-    states, dt = [tick.vehicle for tick in ticks], ticks[1].vehicle.time
+    flight = flown(blend)
+    states, dt = [tick.vehicle for tick in flight], flight[1].vehicle.time
     stages = {
         f"cueing {name}": Stage(partial(_cueing, scenario, dt, states))
         for name, scenario in scenarios.items()
     }
     stages["smoothing"] = Stage(
-        lambda: (build_pipeline(blend, dt).smoothing.step, [tick.cue for tick in ticks])
+        lambda: (build_pipeline(blend, dt).smoothing.step, [tick.cue for tick in flight])
     )
     stages["wheels"] = Stage(
-        lambda: (build_pipeline(blend, dt).wheels.speeds, [tick.motion for tick in ticks])
+        lambda: (build_pipeline(blend, dt).wheels.speeds, [tick.motion for tick in flight])
     )
-    stages["guard"] = Stage(partial(_guard, blend, dt, ticks))
+    stages["guard"] = Stage(partial(_guard, blend, dt, flight))
     stages["pipeline"] = Stage(lambda: (build_pipeline(blend, dt).block, list(_blocks(states))))
-    stages["advance"] = Stage(lambda: _vehicle(blend, len(ticks)))
-    stages["bare"] = Stage(lambda: _bare(len(ticks)))
+    stages["advance"] = Stage(lambda: _vehicle(blend, len(flight)))
+    stages["bare"] = Stage(lambda: _bare(len(flight)))
     calls = {axes: ruckig_call(axes) for axes in (1, 3)}
     planning: dict[int, list[float]] = {axes: [] for axes in calls}
     with without_garbage():
@@ -105,12 +105,8 @@ def measure(bench: Bench) -> Iterator[Row]:
 
 def flown(scenario: Scenario) -> list[Tick]:
     """All ticks of a flight."""
-    vehicle = JsbsimVehicle(scenario.flight)
-    pipeline = build_pipeline(scenario, vehicle.dt)
-    ticks = [pipeline.step(vehicle.state)]
-    while vehicle.advance():
-        ticks.append(pipeline.step(vehicle.state))
-    return ticks
+    vehicle = open_vehicle(scenario)
+    return [*chain.from_iterable(ticks(vehicle, build_pipeline(scenario, vehicle.dt)))]
 
 
 def _rows(stages: dict[str, Stage], planning: dict[int, list[float]]) -> Iterator[Row]:
@@ -193,7 +189,7 @@ def _guard(
 
 
 def _vehicle(scenario: Scenario, ticks: int) -> tuple[Callable[[Any], object], Sequence[Any]]:
-    vehicle = JsbsimVehicle(scenario.flight)
+    vehicle = open_vehicle(scenario)
     return lambda _: vehicle.advance(), range(ticks - 1)
 
 

@@ -1,7 +1,15 @@
 """What to fly: a JSBSim script, or an aircraft with initial conditions and timed inputs."""
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
+
+from ...printable import utf8
+from ...signals import Vehicle
+from .library import own_scripts
+from .script_run import script_run
+from .user_models import beside, plain_name, read_users, user_files, user_model
 
 DEFAULT_RATE_HZ = 120.0  # of an AircraftFlight; the step of most of JSBSim's own scripts
 MIN_RATE_HZ = 10.0  # below it the explicit integrators of JSBSim diverge on ordinary aircraft
@@ -11,20 +19,65 @@ MAX_RATE_HZ = 10_000.0
 
 @dataclass(frozen=True, slots=True)
 class ScriptFlight:
-    """A flight as a JSBSim script tells it.
+    """A flight as a JSBSim script describes it (implements Flight).
 
     script: an XML file of root `runscript`, JSBSim's own or a user's. It names one of JSBSim's own
         aircraft, or one in `models`; its file of initial conditions may lie beside it, or with the
         aircraft.
     rate_hz: steps per second; None for the script's own.
-    duration: s; None for the script's own end. It can only shorten the script.
     models: folder of a user's own aircraft (see `user_models.py`); None without.
     """
 
+    live_only: ClassVar[str] = ""
+    ends_itself: ClassVar[bool] = True
+
     script: Path
     rate_hz: float | None = None
-    duration: float | None = None
     models: Path | None = None
+
+    @property
+    def name(self) -> str:
+        """Name of the script, without its ending."""
+        return self.script.name.removesuffix(".xml")
+
+    def vehicle(self) -> Vehicle:
+        """Load the script into JSBSim. Raises as `JsbsimVehicle`."""
+        from .jsbsim_vehicle import JsbsimVehicle  # which flies what this module describes
+
+        return JsbsimVehicle(self)
+
+    def length(self) -> float | None:
+        """Return the length that the script states, s; it may end earlier, or not load at all."""
+        start, end, _ = script_run(self.script)
+        return None if end is None else max(end - (start or 0.0), 0.0)
+
+    def step(self) -> float:
+        """Return the asked step or the script's own, s."""
+        if self.rate_hz is not None:
+            return 1.0 / self.rate_hz
+        dt = script_run(self.script)[2]
+        allowed = dt is not None and 1.0 / MAX_RATE_HZ <= dt <= 1.0 / MIN_RATE_HZ
+        return dt if dt is not None and allowed else 1.0 / DEFAULT_RATE_HZ
+
+    def files(self) -> dict[str, Path]:
+        """Return a user's script, its initial conditions and its aircraft.
+
+        Nothing of a script of JSBSim's own. Raises InputError for a file that cannot be read.
+        """
+        if self.script == own_scripts().get(self.script.stem):
+            return {}
+        content = read_users(self.script)
+        files = {utf8(self.script.name): self.script}
+        initialize, aircraft = _named(b"initialize", content), _named(b"aircraft", content)
+        path = beside(self.script, initialize) if initialize else None
+        files |= {path.name: path} if path else {}
+        if aircraft and self.models and user_model(aircraft, self.models):
+            files |= user_files(aircraft, self.models, "" if path else initialize)
+        return files
+
+    def large_files(self) -> dict[str, Path]:
+        """Return nothing: all files are small."""
+        return {}
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,13 +108,15 @@ class InitialConditions:
 
 @dataclass(frozen=True, slots=True)
 class TimedInput:
-    """From `time` (s) on, `property` goes to `value` (JSBSim's own unit), linearly within `ramp` (s) or at once when 0.
+    """A property of JSBSim that goes to a value at a time.
 
-    A ramp starts from the property's value at that moment; of two on one property the later takes
-    over from wherever it is. Inputs at time 0 are in effect before the first step and, without a
-    ramp, during the trim and in the first state. So set
-    wind, gear and flaps at 0, but begin a manoeuvre later: with the stick held over there is
-    nothing to trim. Turbulence at 0 begins with the second state.
+    From `time` (s) on, `property` goes to `value` (JSBSim's own unit), linearly within `ramp` (s)
+    or at once when 0. A ramp starts from the property's value at that moment; of two on one
+    property the later takes over from wherever it is.
+
+    Inputs at time 0 are in effect before the first step and, without a ramp, during the trim and
+    in the first state. So set wind, gear and flaps at 0, but begin a manoeuvre later: with the
+    stick held over there is nothing to trim. Turbulence at 0 begins with the second state.
     """
 
     time: float
@@ -72,15 +127,52 @@ class TimedInput:
 
 @dataclass(frozen=True, slots=True)
 class AircraftFlight:
-    """An aircraft flown by timed inputs.
+    """An aircraft flown by timed inputs (implements Flight).
 
-    duration: s, None for no end. rate_hz: steps per second.
-    It is one of JSBSim's own, or the user's in the folder `models` (see `user_models.py`).
+    rate_hz: steps per second; None for DEFAULT_RATE_HZ.
+    models: folder of the user that the aircraft is in (see `user_models.py`); None for one of
+        JSBSim's own.
     """
+
+    live_only: ClassVar[str] = ""
+    ends_itself: ClassVar[bool] = False
 
     aircraft: str
     initial: InitialConditions
     inputs: tuple[TimedInput, ...] = ()
     rate_hz: float | None = None
-    duration: float | None = None
     models: Path | None = None
+
+    @property
+    def name(self) -> str:
+        """Name of the aircraft."""
+        return plain_name(self.aircraft)
+
+    def vehicle(self) -> Vehicle:
+        """Load the aircraft into JSBSim. Raises as `JsbsimVehicle`."""
+        from .jsbsim_vehicle import JsbsimVehicle  # which flies what this module describes
+
+        return JsbsimVehicle(self)
+
+    def length(self) -> None:
+        """Return nothing: an aircraft flies on."""
+
+    def step(self) -> float:
+        """Return the asked step, s."""
+        return 1.0 / (self.rate_hz or DEFAULT_RATE_HZ)
+
+    def files(self) -> dict[str, Path]:
+        """Return a user's aircraft with all files that it names; nothing of JSBSim's own.
+
+        Raises InputError for too many files, and for one that cannot be read.
+        """
+        return user_files(self.aircraft, self.models) if self.models else {}
+
+    def large_files(self) -> dict[str, Path]:
+        """Return nothing: all files are small."""
+        return {}
+
+
+def _named(key: bytes, content: bytes) -> str:
+    named = re.search(key + rb"\s*=\s*[\"']([\w./-]+)[\"']", content)
+    return named[1].decode() if named else ""

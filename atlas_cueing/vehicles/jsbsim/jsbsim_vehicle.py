@@ -2,9 +2,9 @@
 
 # mypyc: runs every tick
 
-from math import floor, inf
+from math import inf
 
-from ...errors import InputError, VehicleError
+from ...errors import VehicleError
 from ...signals import VehicleState
 from ..bounds import Bounds
 from .flights import AircraftFlight, ScriptFlight
@@ -15,7 +15,6 @@ from .readings import Readings
 from .start import initialise, start_aircraft
 
 MOST_RESETS = 10  # of a script, so that it ends; of JSBSim's own one script resets, once (assumed)
-_DURATION_TOLERANCE = 1e-6  # steps; a duration of n dt is n steps however it was rounded
 
 
 class JsbsimVehicle:
@@ -36,7 +35,6 @@ class JsbsimVehicle:
         self._bounds = Bounds() if bounds is None else bounds
         self._fdm = load(flight)
         self._dt = self._fdm.get_delta_t()
-        self._last_step = _last_step(flight.duration, self._dt)
         self._step = 0
         self._resets_left: float = MOST_RESETS if isinstance(flight, ScriptFlight) else inf
         self._inputs = InputPlayer((), self._fdm)
@@ -58,13 +56,11 @@ class JsbsimVehicle:
         return self._state
 
     def advance(self) -> bool:
-        """Go one step on; False at the end of the script or the duration.
+        """Go one step on; False at the end of the script.
 
         Raises VehicleError, with `state` left at the last good one, when JSBSim fails or its state
         is out of bounds.
         """
-        if self._step >= self._last_step:
-            return False
         self._inputs.play(self._step * self._dt)
         running = self._run((self._step + 1) * self._dt)
         if running:
@@ -105,15 +101,3 @@ class JsbsimVehicle:
         if objection:
             raise VehicleError(time, objection)
         return state
-
-
-def _last_step(duration: float | None, dt: float) -> float:
-    """Number of the last step inside the duration.
-
-    InputError when the duration is not positive and finite.
-    """
-    if duration is None:
-        return inf
-    if not 0.0 < duration < inf:
-        raise InputError(f"duration = {duration} s, must be positive and finite")
-    return floor(duration / dt + _DURATION_TOLERANCE)

@@ -20,6 +20,7 @@ from .user_models import (
     MAX_USERS_BYTES,
     SHARED,
     aircraft_objection,
+    beside,
     is_plain_reference,
     plain_name,
     user_files,
@@ -65,21 +66,6 @@ def copy_script(script: Path, folder: Path, models: Path | None = None) -> tuple
         _refuse_files(conditions, own_initial)
         use.set("initialize", str(_write(conditions, folder / own_initial.name)))
     return tree, _write(tree, folder / SCRIPT_COPY)
-
-
-def beside(script: Path, initialize: str) -> Path | None:
-    """The file of initial conditions in the script's own folder, links resolved.
-
-    None when it is not there.
-    """
-    folder = script.parent.resolve()
-    try:
-        path = (folder / f"{initialize.removesuffix('.xml')}.xml").resolve()
-        return (
-            path if path.is_file() and path.parent == folder and path != script.resolve() else None
-        )
-    except (OSError, RuntimeError):  # a name that is too long, links in a circle
-        return None
 
 
 def copy_aircraft(

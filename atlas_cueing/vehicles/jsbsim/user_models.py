@@ -92,6 +92,21 @@ def within(folder: Path, relative: str) -> Path | None:
         return None
 
 
+def beside(script: Path, initialize: str) -> Path | None:
+    """Return the file of initial conditions in the script's own folder, links resolved.
+
+    None when it is not there.
+    """
+    folder = script.parent.resolve()
+    try:
+        path = (folder / f"{initialize.removesuffix('.xml')}.xml").resolve()
+        return (
+            path if path.is_file() and path.parent == folder and path != script.resolve() else None
+        )
+    except (OSError, RuntimeError):  # a name that is too long, links in a circle
+        return None
+
+
 def read_users(path: Path) -> bytes:
     """A user's file as it is.
 

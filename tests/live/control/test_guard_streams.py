@@ -16,10 +16,9 @@ from smoothing.platforms import PLATFORMS
 from atlas_cueing.live.control.command import Command
 from atlas_cueing.live.control.guard import Guard
 from atlas_cueing.rotation import ZERO, apply
-from atlas_cueing.run import build_pipeline
+from atlas_cueing.run import build_pipeline, open_vehicle
 from atlas_cueing.scenario import load_scenario
-from atlas_cueing.signals import Motion, Tick, Vehicle
-from atlas_cueing.vehicles import JsbsimVehicle, SignalFlight, SignalVehicle
+from atlas_cueing.signals import Motion, Tick
 
 from .guard_states import STAGE, STANDING, WHEELS, State, coast, command, excess, limits, states
 
@@ -39,10 +38,7 @@ def of(tick: Tick) -> Command:
 )
 def test_flights_pass_untouched(name: str, method: str) -> None:
     scenario = load_scenario(SCENARIOS / f"{name}.toml", [f"cueing.method={method}"])
-    flight = scenario.flight
-    vehicle: Vehicle = (
-        SignalVehicle(flight) if isinstance(flight, SignalFlight) else JsbsimVehicle(flight)
-    )
+    vehicle = open_vehicle(scenario)
     pipeline = build_pipeline(scenario, vehicle.dt)
     guard = Guard(
         vehicle.dt, scenario.platform.wheel_limit_values(), scenario.platform.stage_limit_values()

@@ -16,6 +16,7 @@ from atlas_cueing.vehicles import (
     AircraftFlight,
     InitialConditions,
     JsbsimVehicle,
+    LimitedDuration,
     RecordedVehicle,
     ScriptFlight,
     Signal,
@@ -32,7 +33,6 @@ ROLL = SignalFlight(
         Signal("force_y", "sine", 2.0, 0.0, 2.0, 0.25, 6.0),
     ),
     120.0,
-    3.0,
 )
 
 
@@ -133,13 +133,13 @@ def test_paused_it_stands_still_and_goes_on_where_it_was() -> None:
 
 
 def test_over_at_the_end_and_standing_there() -> None:
-    source = VehicleSource(SignalVehicle(ROLL))
+    source = VehicleSource(LimitedDuration(SignalVehicle(ROLL), 3.0))
     readings = reads(source, ticks(3.5))
     first = next(i for i, reading in enumerate(readings) if reading.over)
     assert first == 1500  # its last state is at 3 s
     assert all(reading.over for reading in readings[first:])
     assert len({(s.q_NB, s.f_B, s.w_NB_B) for s in vehicles(readings[first:])}) == 1
-    last = SignalVehicle(ROLL)
+    last = LimitedDuration(SignalVehicle(ROLL), 3.0)
     while last.advance():
         pass
     assert readings[-1].vehicle is not None
@@ -175,7 +175,9 @@ def test_a_failure_passes_through() -> None:
 
 def test_a_jump_is_told_once_and_not_turned_through() -> None:
     """JSBSim's own script that trims in mid-run."""
-    source = VehicleSource(JsbsimVehicle(ScriptFlight(own_scripts()["c1722"], None, 1.0)))
+    source = VehicleSource(
+        LimitedDuration(JsbsimVehicle(ScriptFlight(own_scripts()["c1722"])), 1.0)
+    )
     readings = reads(source, ticks(0.9))
     jumps = [reading for reading in readings if reading.jumped]
     assert len(jumps) == 1
@@ -209,8 +211,8 @@ def test_a_recording_is_played_at_its_own_rate_from_its_own_start() -> None:
 
 def test_a_real_model_is_read_between_its_steps() -> None:
     """JSBSim in level flight: the loop's reads shake no more than the model's own steps do."""
-    flight = AircraftFlight("c172x", InitialConditions(1500.0, 55.0, trim=True), (), None, 2.0)
-    model = JsbsimVehicle(flight)
+    flight = AircraftFlight("c172x", InitialConditions(1500.0, 55.0, trim=True))
+    model = LimitedDuration(JsbsimVehicle(flight), 2.0)
     own = [model.state]
     while model.advance():
         own.append(model.state)

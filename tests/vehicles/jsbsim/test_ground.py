@@ -24,7 +24,7 @@ PARKED = InitialConditions(altitude=0.0, airspeed=0.0, engines_running=False)
 def test_a_start_in_the_ground_is_refused_and_the_height_that_is_told_is_none(
     aircraft: str,
 ) -> None:
-    flight = AircraftFlight(aircraft, PARKED, duration=0.5)
+    flight = AircraftFlight(aircraft, PARKED)
     with pytest.raises(
         InputError, match=r"initial.altitude_m = 0: .* m in the ground, with .*trim = true sets it"
     ) as caught:
@@ -36,7 +36,7 @@ def test_a_start_in_the_ground_is_refused_and_the_height_that_is_told_is_none(
 
 @pytest.mark.parametrize("aircraft", ["737", "c172x", "f16", "T37", "sgs126"])
 def test_with_trim_it_stands_on_its_wheels(aircraft: str) -> None:
-    states = fly(JsbsimVehicle(AircraftFlight(aircraft, replace(PARKED, trim=True), duration=2.0)))
+    states = fly(JsbsimVehicle(AircraftFlight(aircraft, replace(PARKED, trim=True))))
     assert [norm(state.f_B) / 9.80665 for state in states] == pytest.approx(
         [1.0] * len(states), abs=0.05
     )
@@ -55,8 +55,8 @@ def test_wheels_that_an_input_lets_out_count() -> None:
         for name, value in (("gear/gear-cmd-norm", 1.0), ("gear/gear-pos-norm", 0.0))
     )
     with pytest.raises(InputError, match="in the ground"):
-        JsbsimVehicle(AircraftFlight("737", low, (down,), duration=0.1))
-    JsbsimVehicle(AircraftFlight("737", replace(low, altitude=1.3), (up,), duration=0.1))
+        JsbsimVehicle(AircraftFlight("737", low, (down,)))
+    JsbsimVehicle(AircraftFlight("737", replace(low, altitude=1.3), (up,)))
 
 
 @pytest.mark.parametrize("aircraft", ["SGS", "minisgs", "ZLT-NT", "ball", "J246", "mk82"])
@@ -65,7 +65,7 @@ def test_what_cannot_stand_is_told_so_and_ends_no_process(aircraft: str) -> None
     with pytest.raises(
         InputError, match=rf"no ground trim of '{aircraft}' .*: (no three points|the force)"
     ):
-        JsbsimVehicle(AircraftFlight(aircraft, replace(PARKED, trim=True), duration=0.1))
+        JsbsimVehicle(AircraftFlight(aircraft, replace(PARKED, trim=True)))
 
 
 def test_no_input_trims_what_cannot_stand() -> None:
@@ -73,8 +73,8 @@ def test_no_input_trims_what_cannot_stand() -> None:
     with pytest.raises(
         InputError, match=r"'simulation/do_simple_trim' must not be set: .*triangle"
     ):
-        JsbsimVehicle(AircraftFlight("SGS", InitialConditions(500.0, 30.0), (trim,), duration=0.5))
-    JsbsimVehicle(AircraftFlight("ball", InitialConditions(500.0, 30.0), (trim,), duration=0.5))
+        JsbsimVehicle(AircraftFlight("SGS", InitialConditions(500.0, 30.0), (trim,)))
+    JsbsimVehicle(AircraftFlight("ball", InitialConditions(500.0, 30.0), (trim,)))
 
 
 def test_no_script_trims_what_cannot_stand(tmp_path: Path) -> None:

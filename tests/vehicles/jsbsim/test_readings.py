@@ -58,9 +58,8 @@ def test_the_sign_of_the_quaternion_never_flips_through_rolls_and_headings() -> 
         "f16",
         InitialConditions(4000.0, 220.0, heading=radians(359.5), trim=True),
         (TimedInput(0.0, "fcs/aileron-cmd-norm", 0.6, 0.5),),
-        duration=10.0,
     )
-    states = fly(JsbsimVehicle(rolls))
+    states = fly(JsbsimVehicle(rolls), 10.0)
     q = np.array([state.q_NB for state in states])
     assert (np.sum(q[1:] * q[:-1], axis=1) > 0.999).all()
     assert np.sum([state.w_NB_B[0] for state in states]) / 120.0 > 4.0 * pi, "it did not roll twice"
@@ -69,9 +68,7 @@ def test_the_sign_of_the_quaternion_never_flips_through_rolls_and_headings() -> 
 
 
 def test_rates_are_the_derivative_of_attitude_in_body_axes() -> None:
-    states = fly(
-        JsbsimVehicle(cessna(TimedInput(0.0, "fcs/aileron-cmd-norm", 0.5, 0.2), duration=3.0))
-    )
+    states = fly(JsbsimVehicle(cessna(TimedInput(0.0, "fcs/aileron-cmd-norm", 0.5, 0.2))), 3.0)
     turned = Rotation.from_quat([state.q_NB for state in states], scalar_first=True)
     by_attitude = (turned[:-1].inv() * turned[1:]).as_rotvec() * 120.0
     rates = np.array([state.w_NB_B for state in states])

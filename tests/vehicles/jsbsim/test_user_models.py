@@ -44,7 +44,7 @@ def edit(path: Path, old: str, new: str) -> None:
 
 
 def flight(folder: Path, name: str = "mymodel") -> AircraftFlight:
-    return replace(cessna(duration=0.5), aircraft=name, models=folder)
+    return replace(cessna(), aircraft=name, models=folder)
 
 
 @pytest.mark.parametrize("engines", [False, True])
@@ -56,7 +56,7 @@ def test_a_copy_flies_as_the_aircraft_that_it_is_a_copy_of(
 ) -> None:
     mine(tmp_path, of, engines=engines)
     initial = InitialConditions(altitude=1500.0, airspeed=60.0)
-    own = AircraftFlight(of, initial, duration=0.2)
+    own = AircraftFlight(of, initial)
     copy = replace(own, aircraft="mymodel", models=tmp_path)
     assert fly(JsbsimVehicle(copy)) == fly(JsbsimVehicle(own))
 
@@ -68,7 +68,7 @@ def test_engines_beside_it_go_before_jsbsims_own(tmp_path: Path) -> None:
         '<displacement unit="IN3"> 320.0',
         '<displacement unit="IN3"> 330.0',
     )
-    strong, own = (fly(JsbsimVehicle(one))[-1] for one in (flight(tmp_path), cessna(duration=0.5)))
+    strong, own = (fly(JsbsimVehicle(one), 0.5)[-1] for one in (flight(tmp_path), cessna()))
     assert strong != own
 
 

@@ -1,0 +1,35 @@
+"""The vehicle that a scenario asks for, whatever its source."""
+
+from ..errors import InputError
+from ..scenario import Scenario
+from ..signals import Vehicle
+from ..vehicles import Flight, LimitedDuration
+
+
+def open_vehicle(scenario: Scenario, *, live: bool = False) -> Vehicle:
+    """Build the vehicle of `scenario`, which ends after the scenario's duration.
+
+    live: whether it flies in real time, as some sources only do.
+
+    Raises InputError for what cannot fly or flies only live, LogError for a damaged recording, and
+    VehicleError for a model that fails in its first state.
+    """
+    flight = scenario.live_flight if live else scenario.flight
+    asked = scenario.file.duration_s
+    end = asked if asked is not None or flight.ends_itself else flight.length()
+    if end is None and not flight.ends_itself:
+        raise InputError(
+            f"the flight of {flight.name!r} has no end of its own; allowed: with duration_s"
+        )
+    with scenario.naming_file():
+        vehicle = flight.vehicle()
+    return vehicle if end is None else LimitedDuration(vehicle, end)
+
+
+def flight_length(flight: Flight, asked: float | None) -> float | None:
+    """Return how long a flight is at most, s, as far as it is known beforehand.
+
+    asked: the scenario's duration, s; None without.
+    """
+    own = flight.length() if flight.ends_itself or asked is None else None
+    return min((time for time in (own, asked) if time is not None), default=None)
