@@ -5,7 +5,10 @@ JSBSim in, wheel velocity profiles out.
 
 
 def __getattr__(name: str) -> str:
-    """`__version__`; looked up when asked for, since importlib.metadata takes as long to load as a third of --help."""
+    """Look up `__version__` when it is asked for.
+
+    importlib.metadata takes as long to load as a third of --help.
+    """
     if name != "__version__":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from importlib.metadata import version

@@ -6,7 +6,7 @@ _BYTES = range(0xDC80, 0xDD00)  # what Python makes of the bytes of a file name 
 
 
 def printable(text: str) -> str:
-    r"""Return `text` on one line, with every character that is not visible written out, as in `\x1b`.
+    r"""Return `text` on one line; characters that are not visible are written out, as in `\x1b`.
 
     Written out are control characters, line breaks, spaces other than the plain one, marks that
     turn the direction of writing, characters without a width, and lone surrogates. A byte of a

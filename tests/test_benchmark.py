@@ -48,7 +48,10 @@ def measured(section: Any, folder: Path) -> list[Row]:
     "section", [whole_run, stages, recorder], ids=lambda module: module.__name__
 )
 def test_a_section_measures_what_it_names(section: Any, tmp_path: Path) -> None:
-    """Every row a positive number beside a positive reference, but for differences: so short a flight may hide their sign."""
+    """Every row is a positive number beside a positive reference, but for differences.
+
+    So short a flight may hide their sign.
+    """
     for row in measured(section, tmp_path):
         difference = section is whole_run or "less" in row.what
         assert row.value > 0.0 or difference, row
@@ -57,7 +60,10 @@ def test_a_section_measures_what_it_names(section: Any, tmp_path: Path) -> None:
 
 
 class Processes:
-    """Stands for `fresh`: looks at the scenario, starts nothing, and takes two seconds of the wall's and one of the CPU's."""
+    """Stands for `fresh`: looks at the scenario and starts nothing.
+
+    It takes two seconds of the wall's clock and one of the CPU's.
+    """
 
     def __init__(self) -> None:
         self.commands: list[str] = []

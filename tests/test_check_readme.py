@@ -1,4 +1,4 @@
-"""The tool that tries README: what it reads from it, and that it tells of what does not end well."""
+"""The tool that tries README: what it reads there, and that it reports what ends badly."""
 
 import sys
 from importlib.machinery import SourceFileLoader
@@ -18,7 +18,8 @@ loader.exec_module(tool)
 sys.dont_write_bytecode = before
 
 README = """
-Named: `tools/fuzz`, `tools/demo`, `tools/fuzz` again and a file, tools/foxglove_layout.json; tools/check_readme is itself.
+Named: `tools/fuzz`, `tools/demo`, `tools/fuzz` again and a file, tools/foxglove_layout.json;
+tools/check_readme is itself.
 
 ```sh
 tools/demo --json      # a comment

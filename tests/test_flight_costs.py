@@ -143,7 +143,10 @@ def test_plans_of_a_second(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_a_recorder_keeps_a_chunk_and_no_more(tmp_path: Path) -> None:
-    """Memory held after 4000 ticks is that after 400, but for the index of the chunks: 30 bytes a tick of 700."""
+    """Memory held after 4000 ticks is that after 400, but for the index of the chunks.
+
+    That is 30 bytes a tick of 700.
+    """
     of = scenario(tmp_path, 1.0)
     pipeline = build_pipeline(of, 1.0 / RATE_HZ)
     ticks = [pipeline.step(state) for state in flight(of)]
@@ -172,7 +175,7 @@ def test_a_recorder_keeps_a_chunk_and_no_more(tmp_path: Path) -> None:
 
 
 def modules(*arguments: str, folder: Path) -> set[str]:
-    """First names of all that is loaded when a command has ended, and those of this package in full."""
+    """First names of all modules loaded when a command has ended; those of this package whole."""
     code = (
         "import sys; from atlas_cueing.cli import main; status = main(sys.argv[1:]);"
         "print(*sorted(sys.modules), file=sys.stderr); sys.exit(status)"

@@ -1,4 +1,7 @@
-"""The tool that measures gain and phase: its arithmetic, and the pipeline's linear theory as a second derivation."""
+"""The tool that measures gain and phase.
+
+Its arithmetic, and the pipeline's linear theory as a second derivation.
+"""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -73,7 +76,9 @@ def stage(s: complex, of: Scenario) -> complex:
 
 
 def turning(s: complex, of: Scenario) -> tuple[complex, complex]:
-    """Pitch rate of the cabin over that of the vehicle, with the force held, and over the force x (rad/s per m/s^2).
+    """Pitch rate of the cabin over that of the vehicle, and over the force x.
+
+    The first with the force held; the second in rad/s per m/s^2.
 
     `target` is the pitch whose gravity is the force, per m/s^2. Linear for small angles, in
     continuous time.
@@ -105,7 +110,10 @@ def turning(s: complex, of: Scenario) -> tuple[complex, complex]:
 @pytest.mark.parametrize("frequency", THREE)
 @pytest.mark.parametrize("method", ["attitude", "blend", "force", "classical"])
 def test_all_four_relations_are_those_of_the_theory(method: str, frequency: float) -> None:
-    """With the force held rates and forces are independent: the four are one column each of the linear pipeline."""
+    """With the force held, rates and forces are independent.
+
+    The four are one column each of the linear pipeline.
+    """
     s, of = 1j * frequency, scenario(method)
     from_rate, from_force = turning(s, of)
     onset = stage(s, of)
@@ -126,7 +134,10 @@ def test_all_four_relations_are_those_of_the_theory(method: str, frequency: floa
 
 @pytest.mark.usefixtures("quick")
 def test_a_force_that_follows_is_the_force_of_the_attitude() -> None:
-    """Superposition, as the vehicle's description says: rotation with its force = rotation alone + the force g / s."""
+    """Superposition, as the vehicle's description says.
+
+    Rotation with its force = rotation alone + the force g / s.
+    """
     w = 2.512
     alone, force = measured("blend", "pitch_rate", w), measured("blend", "force_x", w)
     for answer, response in measured("blend", "pitch_rate", w, follows=True).items():
@@ -154,7 +165,9 @@ def fitted(answer: np.ndarray, amplitude: float) -> tuple[float, float, float]:
 
 
 def rounding(answer: np.ndarray, amplitude: float) -> float:
-    """The gain that rounding alone can make: backward stable, so eps of the answer over the least singular value.
+    """The gain that rounding alone can make.
+
+    The fit is backward stable, so it is eps of the answer over the least singular value.
 
     (Golub and Van Loan, Matrix Computations, 5.3.) The answer is mostly offset and drift, which are
     far above a small gain.

@@ -51,7 +51,7 @@ def test_the_contracts_are_kept() -> None:
     ],
 )
 def test_a_breach_is_seen(tmp_path: Path, file: str, line: str, contract: str) -> None:
-    """The contracts can fail: one forbidden line, or a noun that has no layer, in a copy of the package."""
+    """The contracts can fail: a forbidden line or a noun without a layer, in a copy of the code."""
     shutil.copytree(
         ROOT / "atlas_cueing",
         tmp_path / "atlas_cueing",

@@ -17,7 +17,7 @@ NOTING = '#!/bin/sh\necho "$0 $*" >> {calls}\n'
 
 
 class Project:
-    """A folder with the script, a pyproject.toml and an environment whose pip notes what it is asked for."""
+    """A folder with the script, a pyproject.toml and an environment whose pip notes its calls."""
 
     def __init__(self, folder: Path) -> None:
         self.folder, self.calls, self.programs = (

@@ -64,7 +64,7 @@ def test_a_scenario_that_cannot_be_flown_is_told_in_a_line(
 
 
 def copied(folder: Path, setup: str) -> Path:
-    """A project with a tool that prints the interpreter it runs in, and a setup that does as it is told."""
+    """A project with a tool that prints its interpreter, and a setup that does as the test says."""
     tools = folder / "tools"
     tools.mkdir()
     shutil.copy(ROOT / "tools" / "environment.py", tools)

@@ -11,7 +11,7 @@ SCENARIOS = PROJECT / "scenarios"
 
 
 class Arguments(argparse.ArgumentParser):
-    """A parser for `tools/NAME` whose help is `text` as it stands, with an example of a command below."""
+    """A parser for `tools/NAME` whose help is `text` as it stands, and an example of a command."""
 
     def __init__(self, text: str | None, example: str) -> None:
         super().__init__(

@@ -1,4 +1,6 @@
-"""The project's own environment, `.venv`: every tool enters it, so that it can be called as `tools/NAME` from anywhere.
+"""The project's own environment, `.venv`.
+
+Every tool enters it, so that it can be called as `tools/NAME` from anywhere.
 
 A tool calls `enter` before it imports anything that is not Python's own.
 """
@@ -33,7 +35,7 @@ def enter(extra: str = "") -> None:
 
 
 def _lacking(extra: str) -> bool:
-    """Whether the project, one of its dependencies, or one of the extra's, is not installed here."""
+    """Whether the project, or a dependency of it or of the extra, is not installed here."""
     try:
         for requirement in metadata.requires("atlas_cueing") or ():
             name, _, condition = requirement.partition(";")

@@ -61,7 +61,10 @@ def evaluate_flight(log: Log, flight: RunColumns, platform: Platform) -> Evaluat
 
 
 class Evaluator:
-    """Evaluates a run that is not live while it is recorded, with memory for a block of it: an observer of `McapRecorder`."""
+    """Evaluates a run that is not live while it is recorded, with memory for one block of it.
+
+    It is an observer of `McapRecorder`.
+    """
 
     def __init__(self, platform: Platform) -> None:
         """Of a run on `platform` that has not begun."""

@@ -20,7 +20,10 @@ def _chunk(claimed: int, packed: bytes, crc: int = 0) -> bytes:
 
 
 def _packed(size: int) -> bytes:
-    """So many zeros in 32 bytes for each MB: a frame of zstd (RFC 8878, 3.1.1) whose blocks are all one byte repeated."""
+    """So many zeros in 32 bytes for each MB.
+
+    A frame of zstd (RFC 8878, 3.1.1) whose blocks are all one byte repeated.
+    """
     # of that size, with a window of 8 MB
     head = b"\x28\xb5\x2f\xfd\xc0\x68" + size.to_bytes(8, "little")
     middle, last = (

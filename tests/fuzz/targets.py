@@ -152,7 +152,10 @@ def run(target: Target, number: int, examples: int, tally: Tally) -> None:
 
 
 def spoilt(bases: Sequence[bytes], words: Sequence[bytes]) -> st.SearchStrategy[bytes]:
-    """One of the bases with up to eight places overwritten, cut out or filled up by words, bytes or numbers that lie."""
+    """One of the bases with up to eight places overwritten, cut out or filled up.
+
+    What is put there are words, bytes or numbers that lie.
+    """
     piece = st.one_of(
         st.sampled_from(words),
         st.binary(max_size=6),

@@ -30,7 +30,8 @@ if child == 0:
     os.execvp(sys.argv[2], sys.argv[2:])
 _, ended, usage = os.wait4(child, 0)
 with open(sys.argv[1], "w") as told:
-    print(os.waitstatus_to_exitcode(ended), usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024.0, file=told)
+    cpu, memory = usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024.0
+    print(os.waitstatus_to_exitcode(ended), cpu, memory, file=told)
 """
 PATIENCE = 300.0  # s of wall time, after which a command hangs
 BAD_USAGE = 2  # exit status of what was refused, with nothing written
@@ -250,7 +251,7 @@ def _start_up(command: tuple[str, ...]) -> float:
 
 
 def _run(words: Sequence[str], folder: Path) -> tuple[int, float, float, str]:
-    """Exit status (negative: a signal), CPU time in s, largest resident memory in MB, and what it said on stderr."""
+    """Exit status (negative: a signal), CPU time in s, largest resident memory in MB, stderr."""
     with TemporaryDirectory(prefix="bad_input_") as name, (Path(name) / "err").open("w+b") as err:
         told = Path(name) / "told"
         starter = [sys.executable, "-I", "-S", "-c", _STARTER, str(told), *words]

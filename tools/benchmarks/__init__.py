@@ -1,1 +1,1 @@
-"""What `tools/benchmark` measures: one module for each section of its table, and what they share."""
+"""What `tools/benchmark` measures: a module for each section of its table, and what they share."""

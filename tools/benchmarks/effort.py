@@ -34,7 +34,7 @@ HOURS = ((120.0, 3600.0), (1000.0, 60.0), (1000.0, 600.0), (1000.0, 3600.0))  # 
 
 @dataclass(frozen=True, slots=True)
 class Bench:
-    """What a section is given: its effort, a folder for its files, and where to say how far it is."""
+    """What a section is given: its effort, a folder for its files, and a way to report progress."""
 
     effort: Effort
     folder: Path

@@ -19,7 +19,8 @@ from pathlib import Path
 from atlas_cueing.cli import main
 status = main(sys.argv[1:])
 proc = Path("/proc/self/status")
-peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+unit = 1 if sys.platform == "darwin" else 1024
+peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
 if proc.exists():
     peak = 1024 * int(proc.read_text().split("VmHWM:")[1].split()[0])
 Path("peak").write_text(str(peak))

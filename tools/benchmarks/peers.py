@@ -14,7 +14,10 @@ _V, _A, _J = 31.0, 60.0, 600.0  # rad/s, rad/s^2, rad/s^3: the wheels of atlas-2
 
 
 def ruckig_call(axes: int) -> Callable[[], object]:
-    """One `calculate` of the velocity interface to a speed that is not reached within a tick, its numbers set before."""
+    """One `calculate` of the velocity interface to a speed that is not reached within a tick.
+
+    Its numbers are set before.
+    """
     generator, asked, trajectory = Ruckig(axes, DT), InputParameter(axes), Trajectory(axes)
     asked.control_interface = ControlInterface.Velocity
     asked.current_position = [0.0] * axes

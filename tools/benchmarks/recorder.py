@@ -1,4 +1,7 @@
-"""What recording costs a tick and a message, beside the mcap library's own writer with the same messages made already."""
+"""What recording costs a tick and a message.
+
+Beside it is the mcap library's own writer, with the same messages made already.
+"""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path

@@ -40,7 +40,7 @@ Ready = Callable[[], tuple[Callable[[Any], object], Sequence[Any]]]
 
 @dataclass(slots=True)
 class Stage:
-    """A stage as it is measured: means of each round (us a tick), and for each pass the time of each tick (ns)."""
+    """A stage as it is measured: means of each round (us a tick), each pass's ticks (ns)."""
 
     ready: Ready
     means: list[float] = field(default_factory=list)

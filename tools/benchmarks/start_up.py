@@ -1,4 +1,4 @@
-"""Start-up of the commands in fresh processes, beside the interpreter's own and that of the libraries."""
+"""Start-up of the commands in fresh processes, beside the interpreter's and the libraries'."""
 
 import sys
 from collections.abc import Iterator

@@ -62,7 +62,10 @@ def interleaved(
 
 @contextmanager
 def without_garbage() -> Iterator[None]:
-    """No collection of garbage meanwhile: what a benchmark keeps would make it dearer than it is in a run."""
+    """No collection of garbage meanwhile.
+
+    What a benchmark keeps would make it dearer than it is in a run.
+    """
     gc.collect()
     gc.freeze()
     gc.disable()
@@ -84,7 +87,7 @@ def each(call: Callable[[Any], object], items: Sequence[Any]) -> list[int]:
 
 
 def clock_cost(calls: int = 20000) -> float:
-    """What one pair of clock calls adds to each time of `each`, us, with the call of an empty function."""
+    """What a pair of clock calls and an empty function add to each time of `each`, us."""
     return median(each(lambda _: None, range(calls))) / 1e3
 
 
