@@ -22,9 +22,9 @@ def sources() -> list[str]:
 
 def test_the_command_is_that_of_the_interpreter_that_runs() -> None:
     """As typed into a shell, it finds the extra's packages here already."""
-    told = str(MissingExtraError("a 3D view", "viser", "live"))
-    assert told == f"a 3D view needs viser; install it with: {PIP} install 'atlas_cueing[live]'"
-    command = shlex.split(told.partition("with: ")[2])
+    message = str(MissingExtraError("a 3D view", "viser", "live"))
+    assert message == f"a 3D view needs viser; install it with: {PIP} install 'atlas_cueing[live]'"
+    command = shlex.split(message.partition("with: ")[2])
     assert command == [sys.executable, "-m", "pip", "install", "atlas_cueing[live]"]
 
 
@@ -39,8 +39,8 @@ def test_pip_takes_the_command() -> None:
         "--no-index",
         "atlas_cueing[live]",
     ]
-    told = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
-    assert told.returncode == 0, told.stderr
+    message = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+    assert message.returncode == 0, message.stderr
 
 
 def test_no_message_names_another_pip() -> None:

@@ -9,13 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, TypeAlias, 
 
 from pydantic import Discriminator, Tag, create_model
 
-from ..cueing import (
-    DEFAULT_METHOD,
-    METHODS,
-    Method,
-    MethodParameters,
-    StageParameters,
-)
+from ..cueing import DEFAULT_METHOD, METHODS, Method, MethodParameters, StageParameters
 from ..cueing.parameter import Choice, Parameter
 from ..cueing.stage.stage_parameters import FORCE_GAIN, STAGE
 from .tables import ONE_OR_THREE, ScenarioTable, number
@@ -40,6 +34,14 @@ class MethodTable(ScenarioTable):
         """Parameters of the stage, SI, for a method that has one beside it."""
         values = dict(self)
         return self.declaration.stage_with_values(values | dict(values["stage"]))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle by the name of the method, for a class that is built has no address of its own."""
+        return _restored, (self.method, self.model_dump())
+
+
+def _restored(method: str, values: dict[str, Any]) -> MethodTable:
+    return TABLES[method].model_validate(values)
 
 
 def _method_table(method: Method) -> type[MethodTable]:

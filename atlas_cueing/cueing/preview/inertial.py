@@ -47,7 +47,7 @@ def inertial(states: Sequence[VehicleState], dt: float) -> Inertial:
                 f" {_ABSURD:g}"
             )
     w_S = [flip(state.w_NB_B) for state in states]
-    q_AS = np.array(turned(IDENTITY, w_S, dt))
+    q_AS = np.array(integrate_rates(IDENTITY, w_S, dt))
     return Inertial(
         time=np.array([state.time for state in states]),
         q_AS=q_AS,
@@ -56,7 +56,7 @@ def inertial(states: Sequence[VehicleState], dt: float) -> Inertial:
     )
 
 
-def turned(q: Quat, rates: Sequence[Vec3], dt: float) -> list[Quat]:
+def integrate_rates(q: Quat, rates: Sequence[Vec3], dt: float) -> list[Quat]:
     """Integrate orientations, one for each tick.
 
     q: the first one; rates: at each tick, rad/s, in axes that turn along; dt in s.

@@ -14,11 +14,11 @@ from ...signals import STANDARD_GRAVITY, StageLimits
 from .preview_parameters import PreviewParameters
 from .solver import Bounds, minimise
 from .spline import Spline
-from .stage_plan import acceleration, inside
-from .tilt_plan import slow, turning
+from .stage_plan import acceleration, stage_bounds
+from .tilt_plan import turn_bounds, turn_cost
 
 
-def together(
+def plan_jointly(
     spline: Spline,
     up: Array,
     q_WA: Array,
@@ -40,12 +40,12 @@ def together(
     """
     n, each = spline.points, 3 * spline.points - 3
     total = 3 * n + 3 * each
-    bounds = (slow(spline, parameters) + _touching(up)).among(0, total)
+    bounds = (turn_bounds(spline, parameters) + _touching(up)).among(0, total)
     for axis in range(3):
-        bounds += inside(spline, limits, axis).among(3 * n + axis * each, total)
+        bounds += stage_bounds(spline, limits, axis).among(3 * n + axis * each, total)
     felt = _felt(spline, q_WA)
     weight = 2.0 / (parameters.force_unit**2 * spline.ticks)
-    extra = block_diag([turning(spline, parameters), csc_array((3 * each, 3 * each))])
+    extra = block_diag([turn_cost(spline, parameters), csc_array((3 * each, 3 * each))])
     x = minimise(
         csc_array(weight * (felt.T @ felt) + extra), -weight * (felt.T @ f_A.ravel()), bounds
     )

@@ -10,12 +10,12 @@ from ...rotation import Quat, Vec3, multiply, shortest_arc
 from ...rotations import Array, cross, rotate, rotate_back
 from ...signals import STANDARD_GRAVITY, StageLimits, VehicleState
 from ..cabin import upright
-from .inertial import Inertial, inertial, turned
-from .joint_plan import together
+from .inertial import Inertial, inertial, integrate_rates
+from .joint_plan import plan_jointly
 from .planned_cues import PlannedCues
 from .preview_parameters import PreviewParameters
 from .spline import Spline
-from .stage_plan import rails
+from .stage_plan import plan_stage
 from .tilt_plan import Up, UpPlanner, sampled
 
 _UP: Vec3 = (0.0, 0.0, 1.0)
@@ -42,24 +42,24 @@ def plan_motion(
         spline, inertial(states, dt), upright(states[0].q_NB), parameters, np.array(head_S), dt
     )
     up = UpPlanner(spline, parameters).plan(problem.flight.f_A)
-    course = problem.course(up)
-    plans = [problem.plan(course, rails(spline, course.lacking_W, limits))]
+    path = problem.path(up)
+    plans = [problem.plan(path, plan_stage(spline, path.lacking_W, limits))]
     for _ in range(parameters.rounds):
-        up, stage = together(
+        up, stage = plan_jointly(
             spline,
             up,
-            course.q_WA,
-            problem.flight.f_A - rotate_back(course.q_WA, course.turning_W),
+            path.q_WA,
+            problem.flight.f_A - rotate_back(path.q_WA, path.turning_W),
             parameters,
             limits,
         )
-        course = problem.course(up)
-        plans.append(problem.plan(course, stage))
+        path = problem.path(up)
+        plans.append(problem.plan(path, stage))
     return min(plans, key=lambda plan: plan.cost).cues
 
 
 @dataclass(frozen=True, slots=True)
-class _Course:
+class _CabinPath:
     """The rotation at each of n ticks.
 
     up: W's up in A; q_WA (n, 4): A in W; w_W (n, 3): the cabin's rate, rad/s; turning_W (n, 3): the
@@ -95,29 +95,29 @@ class _Problem:
     head_S: Array
     dt: float
 
-    def course(self, points: Array) -> _Course:
+    def path(self, points: Array) -> _CabinPath:
         """Give the rotation that control points (points, 3) of W's up make."""
         up = sampled(self.spline, points)
         q_WA = self._orientations(up)
         w_W = rotate(q_WA, self.flight.w_A + up.rate)
         turning_W = self._turning(q_WA, w_W)
-        return _Course(
+        return _CabinPath(
             up, q_WA, w_W, turning_W, rotate(q_WA, self.flight.f_A) + _GRAVITY_W - turning_W
         )
 
-    def plan(self, course: _Course, stage: Array) -> _Plan:
+    def plan(self, path: _CabinPath, stage: Array) -> _Plan:
         """Join the rotation and the stage of these control points (points, 3); gives the plan."""
         spline = self.spline
         p_W, v_W, a_W = (
             np.asarray(matrix @ stage) for matrix in (spline.value, spline.slope, spline.curvature)
         )
         force, rate = (
-            np.sum((course.lacking_W - a_W) ** 2, axis=1),
-            np.sum(course.up.rate**2, axis=1),
+            np.sum((path.lacking_W - a_W) ** 2, axis=1),
+            np.sum(path.up.rate**2, axis=1),
         )
         cost = np.mean(force / self.parameters.force_unit**2 + rate / self.parameters.rate_unit**2)
-        q_WS = _product(course.q_WA, self.flight.q_AS)
-        return _Plan(PlannedCues(self.flight.time, q_WS, course.w_W, p_W, v_W, a_W), float(cost))
+        q_WS = _product(path.q_WA, self.flight.q_AS)
+        return _Plan(PlannedCues(self.flight.time, q_WS, path.w_W, p_W, v_W, a_W), float(cost))
 
     def _orientations(self, up: Up) -> Array:
         """Give q_WA (n, 4): the first attitude, turned to W's up, and on from there.
@@ -126,7 +126,9 @@ class _Problem:
         """
         x, y, z = up.direction[0].tolist()
         first = multiply(shortest_arc(rotation.rotate(self.start, (x, y, z)), _UP), self.start)
-        return np.array(turned(first, [(a, b, c) for a, b, c in up.rate.tolist()], self.dt))
+        return np.array(
+            integrate_rates(first, [(a, b, c) for a, b, c in up.rate.tolist()], self.dt)
+        )
 
     def _turning(self, q_WA: Array, w_W: Array) -> Array:
         """Acceleration of the head (W) that the sphere's turning makes."""

@@ -23,7 +23,7 @@ _BRAKING_SHARE = 0.55
 _SLOPES = (8.0, 4.0, 2.0)
 
 
-def rails(spline: Spline, d_W: Array, limits: StageLimits) -> Array:
+def plan_stage(spline: Spline, d_W: Array, limits: StageLimits) -> Array:
     """Give control points (points, 3) of the stage's position, m, in W.
 
     d_W: the demand (ticks, 3), m/s^2, in W.
@@ -32,7 +32,7 @@ def rails(spline: Spline, d_W: Array, limits: StageLimits) -> Array:
     push = acceleration(spline)
     quadratic = csc_array(push.T @ push) * (2.0 / spline.ticks)
     linear = push.T @ d_W * (-2.0 / spline.ticks)
-    axes = [minimise(quadratic, linear[:, i], inside(spline, limits, i)) for i in range(3)]
+    axes = [minimise(quadratic, linear[:, i], stage_bounds(spline, limits, i)) for i in range(3)]
     return np.stack([x[: spline.points] for x in axes], axis=1)
 
 
@@ -44,7 +44,7 @@ def acceleration(spline: Spline) -> csc_array:
     return csc_array(hstack([csc_array((spline.ticks, 2 * spline.points - 1)), spline.straight()]))
 
 
-def inside(spline: Spline, limits: StageLimits, axis: int) -> Bounds:
+def stage_bounds(spline: Spline, limits: StageLimits, axis: int) -> Bounds:
     """Give the bounds that the unknowns of one axis of the stage must keep."""
     n, h = spline.points, spline.interval
     most = (limits.travel[axis], limits.speed[axis], limits.acceleration[axis])

@@ -53,9 +53,9 @@ class UpPlanner:
     def __init__(self, spline: Spline, parameters: PreviewParameters) -> None:
         """Prepare plans of the control points of `spline`."""
         self._spline, self._parameters = spline, parameters
-        self._bounds = slow(spline, parameters)
+        self._bounds = turn_bounds(spline, parameters)
         self._bounds.length(csc_array(eye_array(spline.points)), 1.0)
-        self._turning = turning(spline, parameters)
+        self._turning = turn_cost(spline, parameters)
 
     def plan(self, f_A: Array) -> Array:
         """Give control points (points, 3) of the best path of W's up.
@@ -98,7 +98,7 @@ def sampled(spline: Spline, points: Array) -> Up:
     return Up(direction, cross(slope / length, direction))
 
 
-def slow(spline: Spline, parameters: PreviewParameters) -> Bounds:
+def turn_bounds(spline: Spline, parameters: PreviewParameters) -> Bounds:
     """Give the bounds of rate and acceleration on the control points of W's up.
 
     It is at rest when the flight begins.
@@ -110,7 +110,7 @@ def slow(spline: Spline, parameters: PreviewParameters) -> Bounds:
     return bounds
 
 
-def turning(spline: Spline, parameters: PreviewParameters) -> csc_array:
+def turn_cost(spline: Spline, parameters: PreviewParameters) -> csc_array:
     """Give twice the cost of the rate m' as a quadratic of the control points."""
     weight = 2.0 / (parameters.rate_unit**2 * spline.ticks)
     return csc_array(kron(spline.slope.T @ spline.slope, weight * np.eye(3)))

@@ -53,7 +53,7 @@ class HighPass:
         return self._p, self._v, self._u - omega * (2.0 * self._v + omega * self._p)
 
     @property
-    def fleeting(self) -> float:
+    def high_frequency(self) -> float:
         """The demand of the last step, limited and without its lasting part: u, m/s^2."""
         return self._u
 

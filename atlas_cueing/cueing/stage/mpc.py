@@ -41,13 +41,13 @@ class MpcAxis:
         self._ticks = block_ticks(self._period, parameters.length / dt, parameters.blocks)
         bound = parameters.excess * demand_bound(onset, *limits[:3])
         self._imagined = HighPass(dt, onset, recentre, bandwidth, bound)
-        self._useful = AdaptiveGain(dt, parameters.memory, parameters.first_share, parameters.doubt)
+        self._gain = AdaptiveGain(dt, parameters.memory, parameters.first_share, parameters.doubt)
         self.problem = MpcProblem(
             [ticks * dt for ticks in self._ticks], onset, parameters.fade, limits
         )
         self._to_next = delay % self._period
         self._p = self._v = self._a = 0.0
-        self._course: Plan | None = None  # what is flown; none while the stage stands
+        self._flown: Plan | None = None  # what is flown; none while the stage stands
         self._block = self._left = 0  # where on it: the block, and its ticks still ahead
         self._jerk = 0.0  # of this block
 
@@ -56,10 +56,10 @@ class MpcAxis:
 
         A demand that is there at the start counts as lasting.
         """
-        share = self._useful.share
-        self._useful.update(demand, self._imagined.step(demand)[2])
+        share = self._gain.share
+        self._gain.update(demand, self._imagined.step(demand)[2])
         if not self._to_next:
-            self._plan(share * self._imagined.fleeting)
+            self._plan(share * self._imagined.high_frequency)
             self._to_next = self._period
         self._to_next -= 1
         self._fly()
@@ -73,12 +73,12 @@ class MpcAxis:
 
     def _begin(self, plan: Plan, block: int) -> None:
         """The next tick is the first one of a block of the plan."""
-        self._course, self._block = plan, block
+        self._flown, self._block = plan, block
         self._left, self._jerk = self._ticks[block], plan.jerk(block)
 
     def _fly(self) -> None:
         """One tick along the plan."""
-        plan = self._course
+        plan = self._flown
         if plan is None:
             return
         jerk, dt = self._jerk, self._dt
@@ -91,7 +91,7 @@ class MpcAxis:
         if self._block + 1 < len(self._ticks):
             self._begin(plan, self._block + 1)
         else:
-            self._course, self._v, self._a = None, 0.0, 0.0  # but for rounding they are at rest
+            self._flown, self._v, self._a = None, 0.0, 0.0  # but for rounding they are at rest
 
 
 def planning_ticks(dt: float, rate: float) -> int:

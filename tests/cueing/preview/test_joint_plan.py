@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from atlas_cueing.cueing.preview.joint_plan import together
+from atlas_cueing.cueing.preview.joint_plan import plan_jointly
 from atlas_cueing.cueing.preview.spline import Spline
 from atlas_cueing.cueing.preview.tilt_plan import UpPlanner, sampled
 
@@ -27,7 +27,7 @@ def test_both_at_once_are_better(frequency: float) -> None:
 def test_a_level_force_needs_neither() -> None:
     spline = Spline(401, DT, 10.0)
     course = UpPlanner(spline, QUICK).plan(LEVEL)
-    up, stage = together(spline, course, UPRIGHT, LEVEL, QUICK, LIMITS)
+    up, stage = plan_jointly(spline, course, UPRIGHT, LEVEL, QUICK, LIMITS)
     assert np.allclose(up, course, atol=1e-5)
     assert np.allclose(stage, 0.0, atol=1e-5)
 
@@ -40,8 +40,8 @@ def test_the_stage_pushes_along_its_own_axes_when_w_stands_askew_in_a() -> None:
     f_A = LEVEL + np.outer(push, [1.0, 0.0, 0.0])
     askew = np.tile([np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5)], (401, 1))
     course = UpPlanner(spline, QUICK).plan(LEVEL)
-    _, straight = together(spline, course, UPRIGHT, f_A, QUICK, LIMITS)
-    _, turned = together(spline, course, askew, f_A, QUICK, LIMITS)
+    _, straight = plan_jointly(spline, course, UPRIGHT, f_A, QUICK, LIMITS)
+    _, turned = plan_jointly(spline, course, askew, f_A, QUICK, LIMITS)
     assert np.max(np.abs(spline.curvature @ straight[:, 0])) > 0.1
     assert np.allclose(turned[:, 1], straight[:, 0], atol=1e-4)
     assert np.allclose(turned[:, 0], 0.0, atol=1e-4)
@@ -51,7 +51,7 @@ def test_bounds_are_those_of_each() -> None:
     spline = Spline(401, DT, 10.0)
     f_A = LEVEL + np.outer(3.0 * np.sign(np.sin(np.arange(401) * DT)), [1.0, 0.5, 0.2])
     course = UpPlanner(spline, QUICK).plan(f_A)
-    up, stage = together(spline, course, UPRIGHT, f_A, QUICK, LIMITS)
+    up, stage = plan_jointly(spline, course, UPRIGHT, f_A, QUICK, LIMITS)
     assert np.max(np.linalg.norm(sampled(spline, up).rate, axis=1)) <= QUICK.rate
     for order, limit in enumerate((LIMITS.travel, LIMITS.speed, LIMITS.acceleration, LIMITS.jerk)):
         assert np.all(np.abs(spline.difference(order) @ stage) <= limit)

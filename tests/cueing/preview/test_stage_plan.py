@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 
 from atlas_cueing.cueing.preview.spline import Spline
-from atlas_cueing.cueing.preview.stage_plan import rails
+from atlas_cueing.cueing.preview.stage_plan import plan_stage
 from atlas_cueing.rotation import IDENTITY, ZERO
 from atlas_cueing.rotations import Array
 from atlas_cueing.signals import Cue
@@ -20,7 +20,7 @@ TIME = np.arange(501) * DT
 
 def planned(d_W: Array) -> tuple[Array, Array, Array, Array]:
     spline = Spline(len(d_W), DT, 10.0)
-    points = rails(spline, d_W, LIMITS)
+    points = plan_stage(spline, d_W, LIMITS)
     return (
         spline.value @ points,
         spline.slope @ points,
@@ -85,7 +85,7 @@ def test_without_limits_it_is_the_least_squares_answer() -> None:
     d = np.sin(2.0 * TIME[:101]) + 0.3
     wide = type(LIMITS)(*[(1e3, 1e3, 1e3)] * 4)
     spline = Spline(101, DT, 10.0)
-    points = rails(spline, demand(d), wide)[:, 0]
+    points = plan_stage(spline, demand(d), wide)[:, 0]
     free = np.zeros((spline.points, spline.points - 5))
     free[3:-2] = np.eye(spline.points - 5)
     free[-2:, -1] = 1.0  # the last three are one, the first three zero
@@ -96,7 +96,7 @@ def test_without_limits_it_is_the_least_squares_answer() -> None:
 def test_smoothing_can_follow_right_up_to_the_ends_of_the_travel() -> None:
     """A demand that throws the stage from end to end passes the certified smoothing unchanged."""
     spline = Spline(len(TIME), DT, 20.0)
-    points = rails(spline, demand(30.0 * np.sin(2.5 * TIME)), LIMITS)
+    points = plan_stage(spline, demand(30.0 * np.sin(2.5 * TIME)), LIMITS)
     p, v, a = spline.value @ points, spline.slope @ points, spline.curvature @ points
     assert np.max(np.abs(p[:, 0])) > 0.8 * LIMITS.travel[0]
     smoothing = StageSmoothing(DT, LIMITS)

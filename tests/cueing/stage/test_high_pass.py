@@ -168,7 +168,7 @@ def test_a_small_onset_is_given_whole_and_a_lasting_one_comes_back_unfelt() -> N
         assert cueing.step(IDENTITY, ZERO, (size, 0.0, -STANDARD_GRAVITY))[0][1:] == (0.0, 0.0)
 
 
-def test_the_fleeting_part_is_the_limited_demand_without_what_lasts() -> None:
+def test_the_high_frequency_part_is_the_limited_demand_without_what_lasts() -> None:
     """After a step of the demand it decays with the return to the centre.
 
     A huge one is cut down to the bound first.
@@ -177,9 +177,9 @@ def test_the_fleeting_part_is_the_limited_demand_without_what_lasts() -> None:
     for size, most in ((0.1, 0.1), (1e9, 2.0)):
         onset = HighPass(dt, 1.0, recentre, 50.0, 2.0)
         onset.step(0.0)
-        fleeting = []
+        high_frequency = []
         for _ in range(int(4.0 / recentre / dt)):
             onset.step(size)
-            fleeting.append(onset.fleeting)
-        assert max(fleeting) == pytest.approx(most, rel=0.02)
-        assert fleeting[-1] == pytest.approx(most * np.exp(-4.0), rel=0.02)
+            high_frequency.append(onset.high_frequency)
+        assert max(high_frequency) == pytest.approx(most, rel=0.02)
+        assert high_frequency[-1] == pytest.approx(most * np.exp(-4.0), rel=0.02)
