@@ -35,10 +35,6 @@ class MethodTable(ScenarioTable):
         values = dict(self)
         return self.declaration.stage_with_values(values | dict(values["stage"]))
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle by the name of the method, for a class that is built has no address of its own."""
-        return _restored, (self.method, self.model_dump())
-
 
 def _restored(method: str, values: dict[str, Any]) -> MethodTable:
     return TABLES[method].model_validate(values)

@@ -111,15 +111,6 @@ def test_the_written_table_keeps_its_order() -> None:
     assert tomli_w.dumps(TABLES["classical"]().model_dump(exclude_none=True)) == CLASSICAL
 
 
-@pytest.mark.parametrize("name", TABLES)
-def test_a_table_can_be_pickled(name: str) -> None:
-    """The classes are built, so that pickle would not find them by itself."""
-    table = TABLES[name].model_validate({"method": name})
-    again = pickle.loads(pickle.dumps(table))  # noqa: S301 - its own bytes
-    assert (again, type(again)) == (table, TABLES[name])
-    assert again.parameters() == METHODS[name].defaults
-
-
 def test_the_table_s_help_lists_its_keys() -> None:
     for name, table in TABLES.items():
         text = table.__doc__ or ""
