@@ -36,10 +36,6 @@ class MethodTable(ScenarioTable):
         return self.declaration.stage_with_values(values | dict(values["stage"]))
 
 
-def _restored(method: str, values: dict[str, Any]) -> MethodTable:
-    return TABLES[method].model_validate(values)
-
-
 def _method_table(method: Method) -> type[MethodTable]:
     """Build the table of a method, in the order of a written file.
 

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..rotations import Array
 from ..scenario import Platform
-from .shapes import Array, Colour, Mesh, circle, draw, merged, patch, rod
+from .shapes import Colour, Mesh, circle, draw, merged, patch, rod
 
 if TYPE_CHECKING:
     from viser import FrameHandle, SceneApi

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from ..rotation import IDENTITY, flip, norm, scale, shortest_arc
+from ..rotations import Array
 from ..signals import STANDARD_GRAVITY
-from .shapes import Array, rod
+from .shapes import rod
 
 if TYPE_CHECKING:
     from viser import SceneApi

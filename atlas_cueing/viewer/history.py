@@ -7,11 +7,11 @@ import numpy as np
 
 from ..recording.chunk import felt_columns
 from ..rotation import Vec3
+from ..rotations import Array
 from ..signals import LIVE_ROW, LIVE_TOPICS
 from .live_plots import Traces
 from .recorded_motion import wheel_angles
 from .scene import Pose
-from .shapes import Array
 
 SPAN = 20.0  # s; of the plots
 STEP = 0.05  # s; from point to point

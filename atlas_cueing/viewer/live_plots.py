@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..rotations import Array
 from ..scenario import Platform
-from .shapes import Array
 
 if TYPE_CHECKING:
     from viser import GuiApi

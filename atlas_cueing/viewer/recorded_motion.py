@@ -4,8 +4,8 @@ import numpy as np
 
 from ..errors import InputError
 from ..evaluation import RunColumns
+from ..rotations import Array
 from .scene import Pose
-from .shapes import Array
 
 
 class RecordedMotion:

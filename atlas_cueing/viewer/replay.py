@@ -12,12 +12,12 @@ import numpy as np
 from ..atomic_file import write_page
 from ..errors import OutputError
 from ..evaluation import RunColumns
+from ..rotations import Array
 from ..scenario import Platform
 from .forces import largest_g
 from .recorded_motion import RecordedMotion
 from .scene import Scene
 from .server import check_viser, close_server, open_server
-from .shapes import Array
 
 if TYPE_CHECKING:
     from viser import ViserServer

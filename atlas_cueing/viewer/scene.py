@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..rotation import exp, multiply
+from ..rotations import Array
 from ..scenario import Platform
 from .cabin_model import draw_cabin
 from .forces import USUAL, ForceArrow, ForceScale
-from .shapes import Array
 from .stage_model import Stage, draw_stage
 from .wheel_models import draw_wheels
 

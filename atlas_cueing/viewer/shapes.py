@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from ..rotations import Array
+
 if TYPE_CHECKING:
     from viser import SceneApi
 

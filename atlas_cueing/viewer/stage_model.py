@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..rotation import Vec3
+from ..rotations import Array
 from ..scenario import Platform
-from .shapes import Array, Mesh, draw, merged, rod
+from .shapes import Mesh, draw, merged, rod
 
 if TYPE_CHECKING:
     from viser import SceneApi
