@@ -7,6 +7,7 @@ from atlas_cueing.batch.execute import fly_alone
 from atlas_cueing.batch.fly_batch import Outcome
 from atlas_cueing.batch.job_result import JobResult
 from atlas_cueing.batch.table import columns, csv_of, metric_names, ordered, rows
+from atlas_cueing.run import Evaluation
 
 from .sweeping import order, planned
 
@@ -19,24 +20,37 @@ def outcomes(folder: Path) -> list[Outcome]:
         Outcome(
             blend,
             JobResult(
-                blend.id,
                 "ok",
-                "",
-                "b.mcap",
-                31,
-                0.25,
-                0.1,
-                ("x",),
-                {METRIC: 2.0},
-                {"wheel_speed": 0.5},
+                log=Path("b.mcap"),
+                ticks=31,
+                duration=0.25,
+                wall=0.1,
+                evaluation=Evaluation(
+                    metrics={METRIC: 2.0}, limit_use={"wheel_speed": 0.5}, violations=("x",)
+                ),
+                id=blend.id,
             ),
         ),
         Outcome(
-            attitude, JobResult(attitude.id, "ok", "", "a.mcap", 31, 0.25, 0.1, (), {METRIC: 1.0})
+            attitude,
+            JobResult(
+                "ok",
+                log=Path("a.mcap"),
+                ticks=31,
+                duration=0.25,
+                wall=0.1,
+                evaluation=Evaluation(metrics={METRIC: 1.0}),
+                id=attitude.id,
+            ),
         ),
         Outcome(
             force,
-            JobResult(force.id, "vehicle_failed", 'it said "no",\ntwice', metrics={METRIC: 0.0}),
+            JobResult(
+                "vehicle_failed",
+                'it said "no",\ntwice',
+                evaluation=Evaluation(metrics={METRIC: 0.0}),
+                id=force.id,
+            ),
         ),
         Outcome(classical, None),
     ]
@@ -96,6 +110,7 @@ def test_metrics_are_known_before_anything_flies(tmp_path: Path) -> None:
     (row,) = rows([Outcome(run, record)])
     assert set(metric_names()) <= row.keys()
     assert all(
-        "mismatch" in name or "drift" in name for name in set(record.metrics) - set(metric_names())
+        "mismatch" in name or "drift" in name
+        for name in set(record.evaluation.metrics) - set(metric_names())
     )
     assert METRIC in metric_names()
