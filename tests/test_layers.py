@@ -1,8 +1,10 @@
 """Imports go down only, and the top level of the repository shows what it is for."""
 
+import ast
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -85,3 +87,22 @@ def test_the_top_level_holds_nothing_else() -> None:
     found = {name for name in tracked() if not name.startswith(".")}
     assert found - TOP == set()
     assert {"atlas_cueing", "pyproject.toml", "tests"} <= found
+
+
+def public_functions(file: Path) -> Iterator[str]:
+    """Names of the functions of a module that may be imported from it."""
+    for node in ast.parse(file.read_text("utf-8")).body:
+        if isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
+            yield node.name
+
+
+def test_no_public_function_has_the_name_of_a_package_beside_it() -> None:
+    """Imported into the package above, it would hide that package."""
+    hidden = [
+        f"{file.relative_to(ROOT)}: {name}"
+        for file in (ROOT / "atlas_cueing").rglob("*.py")
+        for name in public_functions(file)
+        for folder in (file.parent, *file.parents)
+        if folder.is_relative_to(ROOT / "atlas_cueing") and (folder / name / "__init__.py").exists()
+    ]
+    assert not hidden

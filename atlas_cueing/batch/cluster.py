@@ -78,15 +78,12 @@ def _record(future: Any, order: Job) -> JobResult:
         record: JobResult = future.result()
         return record
     if future.status == "cancelled":
-        return JobResult(order.id, "worker_lost", "the cluster gave it up")
+        return JobResult("worker_lost", "the cluster gave it up", id=order.id)
     error = future.exception()
     if type(error).__name__ == "KilledWorker":
         return lost(order)
-    return JobResult(
-        order.id,
-        "worker_differs",
-        f"the cluster's worker cannot fly it: {type(error).__name__}: {error}",
-    )
+    reason = f"the cluster's worker cannot fly it: {type(error).__name__}: {error}"
+    return JobResult("worker_differs", reason, id=order.id)
 
 
 def fly_order(order: Job) -> JobResult:

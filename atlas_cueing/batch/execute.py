@@ -1,6 +1,7 @@
 """One run in a process that is its own."""
 
 import resource
+from dataclasses import fields
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -38,52 +39,33 @@ def fly_alone(order: Job, workdir: Path) -> JobResult:
             )
             here = run_id(scenario)
             if here != order.id:
-                return JobResult(
-                    order.id,
-                    "worker_differs",
-                    f"this worker would fly {here}: its versions are not the driver's",
-                )
+                differs = f"this worker would fly {here}: its versions are not the driver's"
+                return JobResult("worker_differs", differs, id=order.id)
             result = run_scenario(scenario, workdir / f"{order.id}.mcap")
     except MemoryError:
-        return JobResult(
-            order.id,
-            "out_of_memory",
-            f"needs more than {order.limits.memory:g} GB",
-            left_by(order, workdir),
+        result = RunResult(
+            "out_of_memory", f"needs more than {order.limits.memory:g} GB", left_by(order, workdir)
         )
     except OutputError as error:
-        return JobResult(order.id, "recording_failed", str(error))
+        result = RunResult("recording_failed", str(error))
     except InputError as error:
         # the scenario was checked when it was planned, so it is the model that does not load
-        return JobResult(order.id, "vehicle_failed", str(error).replace(f"{folder}/", ""))
+        result = RunResult("vehicle_failed", str(error).replace(f"{folder}/", ""))
     except OSError as error:
-        return JobResult(order.id, "recording_failed", f"{type(error).__name__}: {error}")
+        result = RunResult("recording_failed", f"{type(error).__name__}: {error}")
     except Exception as error:  # noqa: BLE001 - one run's mishap is no other's
-        return JobResult(
-            order.id, "failed", f"{type(error).__name__}: {error}", left_by(order, workdir)
-        )
-    return _record(order, result)
+        reason = f"{type(error).__name__}: {error}"
+        result = RunResult("failed", reason, left_by(order, workdir))
+    return _of_job(order, result)
 
 
-def _record(order: Job, result: RunResult) -> JobResult:
-    found = result.evaluation
-    figures = (
-        result.ticks,
-        result.duration,
-        result.wall,
-        found.violations,
-        found.metrics,
-        found.limit_use,
-    )
-    return JobResult(
-        order.id, result.result, result.reason, result.log.name if result.log else "", *figures
-    )
+def _of_job(order: Job, result: RunResult) -> JobResult:
+    """The result of the run as that of its job, whose log is named from the record beside it."""
+    values = {item.name: getattr(result, item.name) for item in fields(result)}
+    return JobResult(**values | {"log": result.log and Path(result.log.name), "id": order.id})
 
 
-def left_by(order: Job, workdir: Path) -> str:
-    """Name of the log that a run left on its workdir, a .part or a complete one.
-
-    Empty when there is none.
-    """
+def left_by(order: Job, workdir: Path) -> Path | None:
+    """Return the name of the log that a run left in its `workdir`, a .part or a complete one."""
     names = (f"{order.id}.mcap.part", f"{order.id}.mcap")
-    return next((name for name in names if (workdir / name).is_file()), "")
+    return next((Path(name) for name in names if (workdir / name).is_file()), None)

@@ -1,80 +1,74 @@
 """What came of one run of a batch, and the file that keeps it."""
 
 import json
-from collections.abc import Callable, Collection
-from dataclasses import asdict, dataclass, field
-from math import isfinite
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, field
+from math import isfinite, nan
 from pathlib import Path
 from typing import Any, Self
 
 from ..atomic_file import write_whole
+from ..run import Evaluation, RunResult
 from .store import ResultStore
 
 # The run itself ended so: the same again would end the same. Anything else (a full disk, a lost
 # worker) is flown again.
 FINAL = ("ok", "vehicle_failed", "failed", "crashed", "timed_out", "out_of_memory")
 # a stronger machine or a longer limit may do better: `--retry`
+_FIGURES = ("metrics", "limit_use")
 KILLED = ("crashed", "timed_out", "out_of_memory")
 
 
 @dataclass(frozen=True, slots=True)
-class JobResult:
-    """The `<run id>.json` beside a log, angles in rad and everything else in SI, units in the names of the figures.
+class JobResult(RunResult):
+    """The result of a run of a batch, as `<run id>.json` keeps it beside the log.
 
-    result: ok, vehicle_failed (did not load, or went wild), failed (an error nobody expected),
-        crashed, timed_out, out_of_memory; never kept: recording_failed, worker_lost,
-        worker_differs.
-    log: file name beside the record; mostly a `.part` when the run was killed, empty when there is
-        none.
-    duration, wall: of the flight and of flying it, s.
+    Angles are in rad and everything else in SI, units in the names of the figures.
+
+    id: of the run.
+    result: as in `RunResult`, or crashed, timed_out, out_of_memory, failed (an unexpected error);
+        never kept: recording_failed, worker_lost, worker_differs.
+    log: name of the file beside this one; mostly a `.part` when the run was killed.
     """
 
-    id: str
-    result: str
-    reason: str = ""
-    log: str = ""
-    ticks: int = 0
-    duration: float = 0.0
-    wall: float = 0.0
-    violations: tuple[str, ...] = ()
-    metrics: dict[str, float] = field(default_factory=dict)
-    limit_use: dict[str, float] = field(default_factory=dict)
-
-    @property
-    def clean(self) -> bool:
-        """Nothing failed and every limit was kept."""
-        return self.result == "ok" and not self.violations
+    id: str = field(kw_only=True)
 
     @property
     def final(self) -> bool:
-        """Flying it again would change nothing."""
+        """Whether flying it again would change nothing."""
         return self.result in FINAL
 
     def to_json(self) -> dict[str, Any]:
-        """By name, unit in the name; a figure that is not finite is None, as JSON has no other word for it."""
-        table = asdict(self)
-        table["duration_s"], table["wall_s"] = table.pop("duration"), table.pop("wall")
-        for name in ("metrics", "limit_use"):
-            table[name] = {
-                key: value if isfinite(value) else None for key, value in table[name].items()
-            }
-        return table
+        """Return everything by name; a figure that is not finite is None, for JSON has no word."""
+        # not super(): slots make a new class, which it does not find
+        table = {"id": self.id, **RunResult.to_json(self)}
+        return table | {name: _finite(getattr(self.evaluation, name)) for name in _FIGURES}
 
     @classmethod
     def from_json(cls, table: dict[str, Any]) -> Self:
-        """The record again.
+        """Return the result that `to_json` gave.
 
         Raises KeyError, TypeError, ValueError or AttributeError for anything else.
         """
-        given = dict(table)
-        duration, wall = float(given.pop("duration_s")), float(given.pop("wall_s"))
-        for name in ("metrics", "limit_use"):
-            given[name] = {
-                key: float("nan") if value is None else float(value)
-                for key, value in given[name].items()
-            }
-        given["violations"] = tuple(given["violations"])
-        return cls(**given, duration=duration, wall=wall)
+        metrics, use = ({k: _number(v) for k, v in table[name].items()} for name in _FIGURES)
+        return cls(
+            result=str(table["result"]),
+            reason=str(table["reason"]),
+            log=Path(table["log"]) if table["log"] else None,
+            ticks=int(table["ticks"]),
+            duration=float(table["duration_s"]),
+            wall=float(table["wall_s"]),
+            evaluation=Evaluation(metrics, use, tuple(table["violations"])),
+            id=str(table["id"]),
+        )
+
+
+def _finite(figures: Mapping[str, float]) -> dict[str, float | None]:
+    return {name: value if isfinite(value) else None for name, value in figures.items()}
+
+
+def _number(value: Any) -> float:
+    return nan if value is None else float(value)
 
 
 def keep(record: JobResult, workdir: Path) -> None:
@@ -113,6 +107,6 @@ def _sound(run: str, content: bytes, has: Callable[[str], bool]) -> JobResult | 
         return None
     return (
         record
-        if record.id == run and record.final and (not record.log or has(record.log))
+        if record.id == run and record.final and (not record.log or has(str(record.log)))
         else None
     )

@@ -166,6 +166,5 @@ class _Crew:
 
 def lost(order: Job) -> JobResult:
     """The record of a run that lost its worker too often."""
-    return JobResult(
-        order.id, "worker_lost", f"its worker process died {ATTEMPTS} times while flying it"
-    )
+    reason = f"its worker process died {ATTEMPTS} times while flying it"
+    return JobResult("worker_lost", reason, id=order.id)

@@ -50,12 +50,12 @@ def _row(outcome: Outcome) -> dict[str, Any]:
     came = {
         "result": record.result,
         "reason": record.reason,
-        "log": record.log,
+        "log": str(record.log or ""),
         "wall_s": record.wall,
     }
-    figures = {**record.metrics, "ticks": record.ticks, "duration_s": record.duration}
-    use = {f"limit_use_{name}": value for name, value in record.limit_use.items()}
-    return {**what, **came, "violations": len(record.violations), **figures, **use}
+    figures = {**record.evaluation.metrics, "ticks": record.ticks, "duration_s": record.duration}
+    use = {f"limit_use_{name}": value for name, value in record.evaluation.limit_use.items()}
+    return {**what, **came, "violations": len(record.evaluation.violations), **figures, **use}
 
 
 def ordered(table: Sequence[Row], metric: str) -> list[Row]:

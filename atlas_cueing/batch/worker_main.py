@@ -55,7 +55,7 @@ def isolated(order: Job) -> JobResult:
         ):
             return _flown(order, results, Path(scratch))
     except (OSError, OutputError) as error:
-        return JobResult(order.id, "recording_failed", f"{order.id}: {error}")
+        return JobResult("recording_failed", f"{order.id}: {error}", id=order.id)
 
 
 def _flown(order: Job, results: ResultStore, scratch: Path) -> JobResult:
@@ -75,10 +75,8 @@ def _flown(order: Job, results: ResultStore, scratch: Path) -> JobResult:
         record = JobResult.from_json(told)
     else:
         result, reason = _cause(order, ended)
-        new, record = (
-            True,
-            JobResult(order.id, result, reason, left_by(order, workdir), wall=monotonic() - begun),
-        )
+        log, wall, new = left_by(order, workdir), monotonic() - begun, True
+        record = JobResult(result, reason, log, wall=wall, id=order.id)
     if new and record.final:
         _deliver(record, workdir, results)
     return record
@@ -100,7 +98,7 @@ def _deliver(record: JobResult, workdir: Path, results: ResultStore) -> None:
     """Log and record to where they belong. Raises OSError or OutputError."""
     keep(record, workdir)
     # the record says that all is there
-    results.deliver(workdir, [name for name in (record.log, f"{record.id}.json") if name])
+    results.deliver(workdir, [str(name) for name in (record.log, f"{record.id}.json") if name])
 
 
 if __name__ == "__main__":

@@ -205,12 +205,13 @@ def _write_pages(outcomes: "Sequence[Outcome]", results: "ResultStore") -> None:
 
     there = results.names()
     for record in (outcome.record for outcome in outcomes if outcome.record):
-        if not record.log.endswith(".mcap") or f"{record.id}.html" in there:
+        log = str(record.log or "")
+        if not log.endswith(".mcap") or f"{record.id}.html" in there:
             continue
         with TemporaryDirectory(prefix="atlas_cueing_") as scratch:
             page = Path(scratch) / "page.html"
             try:
-                write_page(review_log(results.fetch(record.log, Path(scratch))), page)
+                write_page(review_log(results.fetch(log, Path(scratch))), page)
             except LogError as error:
                 say(f"{record.id}: no review: {error}")
             else:
@@ -353,4 +354,4 @@ def _findings(outcome: "Outcome") -> list[str]:
     if record is None or record.clean:
         return []
     failed = [f"{record.id}: {record.result}: {record.reason}"] if record.result != "ok" else []
-    return failed + [f"{record.id}: {violation}" for violation in record.violations]
+    return failed + [f"{record.id}: {violation}" for violation in record.evaluation.violations]

@@ -11,7 +11,6 @@ from ..rotations import Array
 if TYPE_CHECKING:
     from viser import SceneApi
 
-Array: TypeAlias = NDArray[np.float64]
 Mesh: TypeAlias = tuple[Array, NDArray[np.uint32]]
 Colour: TypeAlias = tuple[int, int, int]
 

@@ -22,26 +22,26 @@ def test_log_and_figures_are_those_of_a_plain_run(tmp_path: Path) -> None:
     out.mkdir()
     record = fly_alone(order(run, out), out)
     plain = run_scenario(run.scenario, tmp_path / "plain.mcap")
-    assert (record.result, record.log, record.ticks) == ("ok", f"{run.id}.mcap", plain.ticks)
-    assert (record.metrics, record.limit_use) == (
+    assert (record.result, record.log, record.ticks) == ("ok", Path(f"{run.id}.mcap"), plain.ticks)
+    assert (record.evaluation.metrics, record.evaluation.limit_use) == (
         plain.evaluation.metrics,
         plain.evaluation.limit_use,
     )
     assert (out / record.log).read_bytes() == plain.log.read_bytes()
-    assert [path.name for path in out.iterdir()] == [record.log]
+    assert [path.name for path in out.iterdir()] == [str(record.log)]
 
 
 def test_a_model_that_does_not_load_is_a_failed_vehicle(tmp_path: Path) -> None:
     run = planned(tmp_path, "vehicle.script=unitconversions")[0]
     record = fly_alone(order(run, tmp_path), tmp_path)
-    assert (record.result, record.log, record.ticks) == ("vehicle_failed", "", 0)
+    assert (record.result, record.log, record.ticks) == ("vehicle_failed", None, 0)
     assert "must be <runscript>" in record.reason
 
 
 def test_a_model_that_goes_wild(tmp_path: Path) -> None:
     run = planned(tmp_path, "vehicle.script=cannonball", "duration_s=600")[0]
     record = fly_alone(order(run, tmp_path), tmp_path)
-    assert (record.result, record.log) == ("vehicle_failed", f"{run.id}.mcap")
+    assert (record.result, record.log) == ("vehicle_failed", Path(f"{run.id}.mcap"))
     assert record.ticks > 10
 
 
@@ -95,11 +95,11 @@ def test_a_scenario_that_the_worker_cannot_read_is_a_failure_of_that_run(tmp_pat
 
 def test_a_log_that_was_left_is_named(tmp_path: Path) -> None:
     sent = Job("r", str(tmp_path), {}, RunLimits())
-    assert left_by(sent, tmp_path) == ""
+    assert left_by(sent, tmp_path) is None
     (tmp_path / "r.mcap").touch()
-    assert left_by(sent, tmp_path) == "r.mcap"
+    assert left_by(sent, tmp_path) == Path("r.mcap")
     (tmp_path / "r.mcap.part").touch()
-    assert left_by(sent, tmp_path) == "r.mcap.part"
+    assert left_by(sent, tmp_path) == Path("r.mcap.part")
 
 
 def test_a_confined_process_is_refused_memory() -> None:

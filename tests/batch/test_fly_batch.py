@@ -69,7 +69,7 @@ def test_the_longest_begins_first(tmp_path: Path) -> None:
 )
 def test_retry_is_for_what_had_to_be_killed(tmp_path: Path, result: str, todo: int) -> None:
     run, *_ = planned(tmp_path)
-    keep(JobResult(run.id, result), tmp_path)
+    keep(JobResult(result, id=run.id), tmp_path)
     assert missing([run], FolderStore(tmp_path)) == []
     assert len(missing([run], FolderStore(tmp_path), retry=True)) == todo
 
@@ -90,7 +90,7 @@ def test_what_was_not_flown_is_none(tmp_path: Path) -> None:
 
 def test_a_run_to_be_retried_and_not_flown_is_not_reported_as_it_was(tmp_path: Path) -> None:
     run, *_ = planned(tmp_path)
-    keep(JobResult(run.id, "crashed"), tmp_path)
+    keep(JobResult("crashed", id=run.id), tmp_path)
     (outcome,) = fly_batch(
         [run], FolderStore(tmp_path), fly_in_line, LIMITS, retry=True, stop=lambda: True
     )

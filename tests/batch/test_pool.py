@@ -109,6 +109,6 @@ def test_two_workers_at_the_same_run(tmp_path: Path, monkeypatch: pytest.MonkeyP
 
 def test_what_had_to_be_killed_is_flown_when_it_is_ordered(tmp_path: Path) -> None:
     run = planned(tmp_path)[0]
-    keep(JobResult(run.id, "timed_out"), tmp_path)
+    keep(JobResult("timed_out", id=run.id), tmp_path)
     (record,) = fly_here([order(run, tmp_path)], 1)
     assert record.result == "ok"

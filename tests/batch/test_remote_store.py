@@ -80,7 +80,7 @@ def test_what_breaks_off_is_never_taken_for_a_finished_log(
     results: RemoteStore, tmp_path: Path
 ) -> None:
     (tmp_path / "r.mcap").write_bytes(b"log")
-    keep(JobResult("r", "ok", log="r.mcap"), tmp_path)
+    keep(JobResult("ok", log=Path("r.mcap"), id="r"), tmp_path)
     told = deaf(results)._upload(tmp_path, ["r.mcap", "r.json"])
     assert told == b"memory://results: ConnectionError: cut"
     assert results.names() == set()
@@ -105,7 +105,7 @@ def test_while_it_is_uploaded_it_has_another_name(
 def test_a_record_there_without_its_log_is_flown_again(
     results: RemoteStore, tmp_path: Path
 ) -> None:
-    record = JobResult("r", "ok", log="r.mcap")
+    record = JobResult("ok", log=Path("r.mcap"), id="r")
     keep(record, tmp_path)
     results.write("r.json", (tmp_path / "r.json").read_bytes())
     assert kept(["r"], results) == {}
@@ -118,8 +118,8 @@ def test_the_record_is_uploaded_last(
 ) -> None:
     uploaded: list[str] = []
     monkeypatch.setattr(results, "deliver", lambda _, names: uploaded.extend(names))
-    _deliver(JobResult("r", "ok", log="r.mcap"), tmp_path, results)
-    _deliver(JobResult("s", "vehicle_failed"), tmp_path, results)
+    _deliver(JobResult("ok", log=Path("r.mcap"), id="r"), tmp_path, results)
+    _deliver(JobResult("vehicle_failed", id="s"), tmp_path, results)
     assert uploaded == ["r.mcap", "r.json", "s.json"]
 
 
@@ -253,7 +253,10 @@ def test_what_a_killed_run_recorded_is_uploaded(
     there = RemoteStore(f"file://{tmp_path}/there")
     (outcome,) = fly_batch(runs, there, lambda orders, stop: fly_here(orders, 1, stop), LIMITS)
     assert outcome.record
-    assert (outcome.record.result, outcome.record.log) == ("crashed", f"{runs[0].id}.mcap.part")
+    assert (outcome.record.result, outcome.record.log) == (
+        "crashed",
+        Path(f"{runs[0].id}.mcap.part"),
+    )
     assert there.names() == {f"{runs[0].id}.mcap.part", f"{runs[0].id}.json"}
     assert not list((tmp_path / "scratch").iterdir())
 

@@ -7,6 +7,7 @@ from atlas_cueing.batch.execute import fly_alone
 from atlas_cueing.batch.fly_batch import Outcome
 from atlas_cueing.batch.job_result import JobResult
 from atlas_cueing.batch.table import METRIC_COLUMNS, columns, csv_of, ordered, rows
+from atlas_cueing.run import Evaluation
 
 from .sweeping import order, planned
 
@@ -19,24 +20,37 @@ def outcomes(folder: Path) -> list[Outcome]:
         Outcome(
             blend,
             JobResult(
-                blend.id,
                 "ok",
-                "",
-                "b.mcap",
-                31,
-                0.25,
-                0.1,
-                ("x",),
-                {METRIC: 2.0},
-                {"wheel_speed": 0.5},
+                log=Path("b.mcap"),
+                ticks=31,
+                duration=0.25,
+                wall=0.1,
+                evaluation=Evaluation(
+                    metrics={METRIC: 2.0}, limit_use={"wheel_speed": 0.5}, violations=("x",)
+                ),
+                id=blend.id,
             ),
         ),
         Outcome(
-            attitude, JobResult(attitude.id, "ok", "", "a.mcap", 31, 0.25, 0.1, (), {METRIC: 1.0})
+            attitude,
+            JobResult(
+                "ok",
+                log=Path("a.mcap"),
+                ticks=31,
+                duration=0.25,
+                wall=0.1,
+                evaluation=Evaluation(metrics={METRIC: 1.0}),
+                id=attitude.id,
+            ),
         ),
         Outcome(
             force,
-            JobResult(force.id, "vehicle_failed", 'it said "no",\ntwice', metrics={METRIC: 0.0}),
+            JobResult(
+                "vehicle_failed",
+                'it said "no",\ntwice',
+                evaluation=Evaluation(metrics={METRIC: 0.0}),
+                id=force.id,
+            ),
         ),
         Outcome(classical, None),
     ]
@@ -95,5 +109,5 @@ def test_metrics_are_known_before_anything_flies(tmp_path: Path) -> None:
     record = fly_alone(order(run, tmp_path), tmp_path)
     (row,) = rows([Outcome(run, record)])
     assert set(METRIC_COLUMNS) <= row.keys()
-    assert set(record.metrics) <= set(METRIC_COLUMNS)
+    assert set(record.evaluation.metrics) <= set(METRIC_COLUMNS)
     assert METRIC in METRIC_COLUMNS

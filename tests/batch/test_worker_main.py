@@ -97,7 +97,7 @@ def test_what_a_killed_run_recorded_is_kept(
 ) -> None:
     sabotage(monkeypatch, "(Path(order.place) / f'{order.id}.mcap.part').touch(); os.abort()")
     harmed, _ = told(orders(tmp_path, RunLimits()))
-    assert harmed.log == f"{harmed.id}.mcap.part"
+    assert harmed.log == Path(f"{harmed.id}.mcap.part")
 
 
 def test_the_real_command_from_a_folder_of_strange_modules(

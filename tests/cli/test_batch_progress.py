@@ -27,7 +27,7 @@ def shown(runs: list[PlannedRun], monkeypatch: pytest.MonkeyPatch, stderr: io.St
     monkeypatch.setenv("COLUMNS", "120")
     with batch_progress(runs) as tell:
         for run, result in zip(runs, ("ok", "crashed", "ok"), strict=True):
-            tell(JobResult(run.id, result, ticks=54, duration=0.45))
+            tell(JobResult(result, ticks=54, duration=0.45, id=run.id))
     return stderr.getvalue()
 
 
@@ -58,9 +58,9 @@ def test_what_is_left_is_measured_by_flight_and_not_by_runs(
     """
     count = module.Count(runs)
     monkeypatch.setattr(module.Count, "wall", 10.0)
-    count.add(JobResult(runs[0].id, "ok", ticks=54, duration=0.45))
+    count.add(JobResult("ok", ticks=54, duration=0.45, id=runs[0].id))
     assert count.text().endswith("20 s left at most")
-    count.add(JobResult(runs[1].id, "vehicle_failed"))
+    count.add(JobResult("vehicle_failed", id=runs[1].id))
     assert count.text().endswith("10 s left at most")
 
 
