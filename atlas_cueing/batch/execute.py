@@ -34,6 +34,8 @@ def fly_alone(order: Job, workdir: Path) -> JobResult:
                 path = Path(folder) / name
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_bytes(content.encode("latin-1"))
+            for name, original in order.large.items():
+                (Path(folder) / name).symlink_to(original)
             scenario = load_scenario(
                 Path(folder) / "scenario.toml", trust_models=order.trust_models
             )

@@ -1,7 +1,11 @@
-"""One run as a worker needs it, here or on another machine: nothing in it points to a file but the place of results."""
+"""One run as a worker needs it, here or on another machine.
+
+Nothing in it points to a file but the place of results, and files too large to carry along, which
+have to be there under the same path.
+"""
 
 import json
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import Self
 
 from .plan import PlannedRun
@@ -22,27 +26,39 @@ class RunLimits:
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """A run to fly: its id, where results go, the files of the scenario by name, its limits, and trust in its script."""
+    """A run to fly.
+
+    id: of the run. place: where results go.
+    files: the files of the scenario by name, bytes as Latin-1, which loses none.
+    trust_models: whether the user trusts its script or aircraft.
+    large: absolute paths of files that are not carried along, by name. The run's id holds their
+        content, so a worker that finds another one there does not fly.
+    """
 
     id: str
     place: str
-    files: dict[str, str]  # bytes as Latin-1, which loses none
+    files: dict[str, str]
     limits: RunLimits
     trust_models: bool = False
+    large: dict[str, str] = field(default_factory=dict)
 
     @classmethod
     def of(cls, run: PlannedRun, place: str, limits: RunLimits) -> Self:
-        """The order for a planned run."""
+        """Return the job of a planned run, whose results go to `place`."""
         files = {name: data.decode("latin-1") for name, data in run.scenario.attachments().items()}
-        return cls(run.id, place, files, limits, run.scenario.trust_models)
+        large = {
+            name: str(path.resolve())
+            for name, path in run.scenario.live_flight.large_files().items()
+        }
+        return cls(run.id, place, files, limits, run.scenario.trust_models, large)
 
     def to_line(self) -> bytes:
-        """One line of JSON."""
+        """Return the job as one line of JSON."""
         return json.dumps(asdict(self)).encode() + b"\n"
 
     @classmethod
     def from_line(cls, line: bytes) -> Self:
-        """The order again."""
+        """Return the job that `to_line` gave."""
         table = json.loads(line)
         return cls(
             table["id"],
@@ -50,4 +66,5 @@ class Job:
             table["files"],
             RunLimits(**table["limits"]),
             table["trust_models"],
+            table["large"],
         )

@@ -39,7 +39,10 @@ class SourceTable(ScenarioTable):
         return None
 
     def portable(self, folder: Path) -> dict[str, Any]:
-        """Return the table as the scenario in a log has it, beside the files of its flight."""
+        """Return the table as the scenario in a log has it, beside the files of its flight.
+
+        It names them as `Flight.files` and `Flight.large_files` do.
+        """
         _ = folder
         return self.model_dump(exclude_none=True)
 

@@ -1,6 +1,13 @@
 from pathlib import Path
 
+import pytest
+from short_scenario import Load
+
+from atlas_cueing.batch import plan
+from atlas_cueing.batch.execute import fly_alone
 from atlas_cueing.batch.job import Job, RunLimits
+from atlas_cueing.run import run_scenario
+from atlas_cueing.scenario import RecordedFlight
 
 from .sweeping import order, planned
 
@@ -16,3 +23,32 @@ def test_an_order_survives_its_line(tmp_path: Path) -> None:
 def test_bytes_of_any_kind_go_along(tmp_path: Path) -> None:
     sent = Job("r", str(tmp_path), {"x.xml": bytes(range(256)).decode("latin-1")}, RunLimits())
     assert Job.from_line(sent.to_line()).files["x.xml"].encode("latin-1") == bytes(range(256))
+
+
+RECORDING = """
+name = "again"
+[vehicle]
+source = "recording"
+log = "flown.mcap"
+[platform]
+preset = "atlas-2.9m"
+"""
+
+
+def test_a_file_too_large_to_carry_is_read_where_it_lies(
+    load: Load, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A recording, as if it flew in a batch already: the run's id is that of its content."""
+    monkeypatch.setattr(RecordedFlight, "live_only", "")
+    run_scenario(load("duration_s=0.2"), tmp_path / "flown.mcap")
+    (tmp_path / "again.toml").write_text(RECORDING)
+    (run,) = plan([tmp_path / "again.toml"])
+    assert run.duration == pytest.approx(0.2, abs=0.01)
+    sent = Job.from_line(Job.of(run, str(tmp_path), RunLimits()).to_line())
+    assert sent.large == {"flown.mcap": str(tmp_path / "flown.mcap")}
+    assert (tmp_path / "flown.mcap").read_bytes() not in map(str.encode, sent.files.values())
+    assert fly_alone(sent, tmp_path).result == "ok"
+    run_scenario(load("duration_s=0.3"), tmp_path / "flown.mcap")
+    assert fly_alone(sent, tmp_path).result == "worker_differs"
+    (tmp_path / "flown.mcap").unlink()
+    assert fly_alone(sent, tmp_path).result == "vehicle_failed"
