@@ -5,8 +5,10 @@ installed:
 
     export DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES=1
     dask scheduler --host HOST --port 8786 --dashboard-address HOST:8787
-    dask worker tcp://HOST:8786 --host HERE --dashboard-address HERE:0 --nworkers 8 --nthreads 1    # on every machine
-    atlas-cueing batch scenarios -o /shared/results --cluster tcp://HOST:8786                       # or -o s3://bucket/results
+    # on every machine
+    dask worker tcp://HOST:8786 --host HERE --dashboard-address HERE:0 --nworkers 8 --nthreads 1
+    # or with -o s3://bucket/results
+    atlas-cueing batch scenarios -o /shared/results --cluster tcp://HOST:8786
 
 Whoever reaches the scheduler or a worker can run any program there: HOST and HERE are 127.0.0.1 or
 of a private network. Without --dashboard-address both answer on all interfaces, also with
@@ -37,7 +39,9 @@ _own = threading.local()  # a worker process for each thread of a dask worker
 def on_cluster(
     address: str, jobs: int
 ) -> Iterator[Callable[[Iterable[Job], Stop], Iterator[JobResult]]]:
-    """What flies orders on the cluster of a scheduler (`tcp://HOST:PORT`), or on `jobs` LOCAL workers; records as they come.
+    """Fly jobs on a dask cluster and yield their results as they come.
+
+    address: of a scheduler (`tcp://HOST:PORT`), or LOCAL for `jobs` workers on this machine.
 
     The runs of a lost worker are begun again elsewhere; one that loses ATTEMPTS workers is given up
     as `worker_lost`. Once `stop` is true nothing more is begun. Raises InputError when dask is not

@@ -1,4 +1,4 @@
-"""A function in a process of its own: it may crash, hang or be killed, and takes nothing with it."""
+"""A function in a process of its own, which may crash, hang or be killed by itself alone."""
 
 import os
 import signal
@@ -18,7 +18,9 @@ _PARENT_DEATH = 1  # PR_SET_PDEATHSIG of Linux's prctl
 
 @dataclass(frozen=True, slots=True)
 class ChildExit:
-    """What became of a child: what it told, its exit status (a signal's number below zero), what it printed last.
+    """What became of a child process.
+
+    Its answer, its exit status (a signal's number below zero), and what it printed last.
 
     late: it was killed at its time limit.
     """

@@ -94,7 +94,10 @@ def kept(runs: Collection[str], results: ResultStore) -> dict[str, JobResult]:
 
 
 def done_by_another(run: str, results: ResultStore) -> JobResult | None:
-    """The record of a run as `kept` finds it, without those that had to be killed: whoever orders them wants them again."""
+    """Read the result of a run that is kept, as `kept` finds it.
+
+    Runs that had to be killed are left out: whoever orders them wants them again.
+    """
     content = results.read([f"{run}.json"]).get(f"{run}.json", b"")
     record = _sound(run, content, results.has)
     return record if record and record.result not in KILLED else None

@@ -87,7 +87,10 @@ class RemoteStore:
 
     @contextmanager
     def claimed(self, run: str) -> Iterator[None]:  # noqa: ARG002 - no run is held
-        """Nobody is kept out: two workers at the same run upload the same bytes, each under a name of its own."""
+        """Keep no other batch out.
+
+        Two workers at the same run upload the same bytes, each under a name of its own.
+        """
         yield
 
     def has(self, name: str) -> bool:
@@ -163,7 +166,10 @@ class RemoteStore:
 
     @contextmanager
     def _moved(self, name: str) -> Iterator[str]:
-        """A name to write to; what is there in the end is moved to `name`, and what was written in vain is removed."""
+        """Give a name to write to; what is there in the end is moved to `name`.
+
+        What was written in vain is removed.
+        """
         # so that nobody else writes into the same file
         part = self._at(f"{name}.{secrets.token_hex(_TOKEN)}.upload")
         try:

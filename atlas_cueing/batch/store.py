@@ -22,7 +22,10 @@ class ResultStore(Protocol):
 
     @property
     def place(self) -> str:
-        """What `results_at` finds the place by from any working directory and, for what is shared, from any machine."""
+        """Address of the place, valid from any working directory.
+
+        For a shared place it is valid on any machine as well.
+        """
         ...
 
     @property

@@ -1,4 +1,6 @@
-"""A process that has everything imported and forks once for each run: `python -m atlas_cueing.batch.worker_main`.
+"""A worker: everything is imported once, and each run costs a fork.
+
+It is started as `python -m atlas_cueing.batch.worker_main`.
 
 Orders come in on stdin, a line each, and records go out on stdout, a line each. A run costs a fork
 instead of an interpreter with its libraries, and takes nothing with it when it crashes, hangs or

@@ -57,7 +57,7 @@ A file with a [sweep] table stands for many runs:
   draws = 10
 
   cueing.align_rate_deg_s = { low = 0.5, high = 10.0 }
-"""
+"""  # noqa: E501 - commands to copy
 
 SORTED_BY = "direction_rms_rad"
 _SHOWN_NAMES = 5  # metrics that a wrong --sort is answered with

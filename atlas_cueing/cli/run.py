@@ -14,7 +14,7 @@ Examples:
   atlas-cueing run scenarios/c172_elevator_doublet.toml -o doublet.mcap --set cueing.method=attitude
 
   atlas-cueing run flight.toml --set platform.preset=atlas-1.5m --set platform.wheel_limits.speed_rad_s=20 --json
-"""
+"""  # noqa: E501 - commands to copy
 
 
 def run_command(

@@ -27,7 +27,10 @@ def aligned(rows: Sequence[tuple[str, str]], indent: str = "  ") -> list[str]:
 
 
 def say(line: str) -> None:
-    """Print one line on stderr; a line break in it, which can only be part of a name, is written out."""
+    """Print one line on stderr.
+
+    A line break in it, which can only be part of a name, is written out.
+    """
     typer.echo(printable(line), err=True)
 
 

@@ -18,7 +18,9 @@ _FLOWN = ("vehicle", "duration_s")  # keys of what has been flown already
 
 
 def cue_again(path: str | Path, settings: Sequence[str], output: str | Path) -> Scenario:
-    """Write `output`, the flight of the log `path` cued anew with `KEY=VALUE` settings on top of the log's own scenario.
+    """Cue the flight of a log anew, and write the result as the log `output`.
+
+    The `KEY=VALUE` settings go on top of the scenario that the log `path` carries.
 
     Without settings, cue, motion and wheels are the log's own to the last bit. With another method,
     what the old one had by default is left to the new one's defaults, as in a run; what was set for
@@ -102,7 +104,10 @@ def _refuse_flown(settings: Sequence[str]) -> None:
 
 
 def _from_here(text: str) -> str:
-    """A platform file is looked for where the command was called, not where the log's files are unpacked."""
+    """Look for a platform file where the command was called.
+
+    The log's files are unpacked somewhere else.
+    """
     key, _, value = text.partition("=")
     if key.strip() != "platform.file":
         return text

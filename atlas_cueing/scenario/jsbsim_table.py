@@ -35,7 +35,10 @@ def _known(kind: str, names: Collection[str], value: Any) -> str:
 
 
 def _known_aircraft(value: Any, info: ValidationInfo) -> str:
-    """A name; so is a number, for `--set vehicle.aircraft=737` and 737 without quotes mean nothing else."""
+    """Read a name; a number is one too.
+
+    `--set vehicle.aircraft=737` and 737 without quotes mean nothing else.
+    """
     name = str(value) if isinstance(value, int) and not isinstance(value, bool) else value
     kind = "aircraft, or one in aircraft/NAME/NAME.xml beside the scenario"
     if not isinstance(name, str):

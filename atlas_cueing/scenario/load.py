@@ -86,7 +86,9 @@ def resolve(
     trust_models: bool = False,
     known: Known | None = None,
 ) -> Scenario:
-    """As `load_scenario` for the table that `path` holds, which is changed, and overrides read already.
+    """Resolve the table that `path` holds, as `load_scenario` does; the table is changed.
+
+    The overrides have been read already.
 
     known: of the scenarios before this one of the same file, when there are many.
     """
@@ -218,7 +220,7 @@ def _broken_rules(data: dict[str, Any], name_file: FileNamer) -> list[Mistake]:
 
 
 def _leave_method(data: dict[str, Any], method: Any) -> None:
-    """When another method is set from the command line, leave out what only the file's own method knows."""
+    """Leave out the keys of the file's own method when another one is set."""
     table = data.get("cueing")
     if not isinstance(table, dict) or not isinstance(method, str) or method not in TABLES:
         return

@@ -78,7 +78,7 @@ def apply_overrides(data: dict[str, Any], overrides: Overrides) -> list[Mistake]
 
 
 def with_own(data: dict[str, Any], keys: Iterable[Key]) -> dict[str, Any]:
-    """The same table again, whose values at these keys can be set by `apply_overrides` while `data` stays as it is.
+    """Copy a table as far as `apply_overrides` sets values at these keys; `data` stays as it is.
 
     What lies beside the keys is shared: a sweep has one file and thousands of runs.
     """

@@ -46,7 +46,10 @@ def read_toml(path: Path) -> dict[str, Any]:
 
 
 class TomlFiles:
-    """Files as they were when first asked for, each read once, for many scenarios that have them in common."""
+    """Files as they were when first asked for, each read once.
+
+    Many scenarios may have them in common.
+    """
 
     def __init__(self) -> None:
         self._found: dict[Path, dict[str, Any] | ScenarioError] = {}

@@ -97,7 +97,9 @@ class ScenarioFile(ScenarioTable):
 
 @dataclass(frozen=True, slots=True)
 class Scenario:
-    """A scenario: the file with every override in it, its platform, and the folder of what is the user's.
+    """A scenario: the file with every override in it, and its platform.
+
+    It also knows the folder of the user's files.
 
     trust_models: whether a user's script or aircraft may be flown; without it everything but the
         flight can be had.
@@ -130,7 +132,10 @@ class Scenario:
 
     @property
     def needs_whole_flight(self) -> bool:
-        """Whether the cueing method has to know every state of the flight before the first cue, so that it cannot fly live."""
+        """Whether the cueing method has to know the whole flight before the first cue.
+
+        Such a method cannot fly live.
+        """
         return self.file.cueing.declaration.needs_flight
 
     @property

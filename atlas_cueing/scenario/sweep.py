@@ -1,11 +1,11 @@
 """The `[sweep]` table: one scenario file that stands for many runs.
 
     [sweep]
-    cueing.method = ["blend", "force"]                                 # a list: every value, with every value of the others
-    vehicle.script = "c172*"                                           # a pattern: every name known here and now
-    draws = 100                                                        # so many draws from the ranges, for each of the above
+    cueing.method = ["blend", "force"]  # a list: every value, with every value of the others
+    vehicle.script = "c172*"  # a pattern: every name known here and now
+    draws = 100  # so many draws from the ranges, for each of the above
     seed = 1
-    cueing.align_rate_deg_s = { low = 0.5, high = 10.0, log = true }   # a range, uniform or uniform in the logarithm
+    cueing.align_rate_deg_s = { low = 0.5, high = 10.0, log = true }  # a range, of the logarithm
 
 Keys are those of `--set`. Every range has a stream of random numbers of its own: another range
 beside it changes nothing, and every point of the grid gets the same draws, so that they compare.
@@ -60,7 +60,10 @@ Choices: TypeAlias = dict[Key, Sequence[Any]]
 
 @dataclass(frozen=True, slots=True)
 class Variant:
-    """One run of a file: its scenario, and what the sweep set in it, dotted key to value (nothing without a sweep)."""
+    """One run of a file: its scenario, and what the sweep set in it.
+
+    The settings are dotted key to value; there are none without a sweep.
+    """
 
     scenario: Scenario
     settings: dict[str, Any]

@@ -1,15 +1,17 @@
-"""FlightGear's native FDM packet, version 24, as JSBSim and FlightGear send it over UDP: feet become metres here.
+"""FlightGear's native FDM packet, version 24, as JSBSim and FlightGear send it over UDP.
+
+Feet become metres here.
 
 408 bytes, big-endian (FlightGear, src/Network/net_fdm.hxx): what is read of them is
 
-    version, padding                                uint32 each
+    version, padding                    uint32 each
     longitude, latitude (geodetic, rad), altitude   double each; metres above the ellipsoid
-    height above ground                             float; m
-    phi, theta, psi                                 float; rad: roll, pitch, heading
-    alpha, beta                                     float; not used
-    phidot, thetadot, psidot                        float; rad/s: rates of the Euler angles, not of the body
+    height above ground                 float; m
+    phi, theta, psi                     float; rad: roll, pitch, heading
+    alpha, beta                         float; not used
+    phidot, thetadot, psidot            float; rad/s: rates of the Euler angles, not of the body
     vcas ... w                                      eight floats; not used
-    A_X, A_Y, A_Z pilot                             float; ft/s^2: specific force at the pilot's eye, body FRD
+    A_X, A_Y, A_Z pilot                 float; ft/s^2: specific force at the pilot's eye, body FRD
 
 A packet has no time of the simulation and no number. Floats give an attitude good to 3e-7 rad and a
 force to 4e-6 m/s^2.
@@ -95,7 +97,9 @@ class FlightgearFlight:
 
 
 def decode(packet: bytes, time: float, bounds: Bounds) -> VehicleState:
-    """State in a packet, called `time` (s): attitude, body rates and specific force as in `signals.VehicleState`.
+    """Decode the state in a packet, called `time` (s).
+
+    Attitude, body rates and specific force are as in `signals.VehicleState`.
 
     The force is scaled by standard gravity over normal gravity at the packet's latitude and
     altitude, which takes in the Earth's turn, so that a vehicle at rest shows (0, 0, -9.80665)
@@ -142,7 +146,9 @@ def decode(packet: bytes, time: float, bounds: Bounds) -> VehicleState:
 
 
 def normal_gravity(latitude: float, altitude: float) -> float:
-    """Gravity of the turning ellipsoid (m/s^2) at a geodetic latitude (rad) and an altitude above it (m).
+    """Gravity of the turning ellipsoid (m/s^2).
+
+    At a geodetic latitude (rad) and an altitude above it (m).
 
     On the ellipsoid Somigliana's formula. Above it the inverse square that begins as the series of
     WGS 84 does; the series itself turns upwards again some thousand kilometres up.
@@ -168,6 +174,9 @@ def _check_kind(packet: bytes) -> None:
 
 
 def _body_rates(phi: float, theta: float, phidot: float, thetadot: float, psidot: float) -> Vec3:
-    """Rates about the body's axes from those of the Euler angles (Stevens & Lewis, Aircraft Control and Simulation, 1.4)."""
+    """Rates about the body's axes from those of the Euler angles (rad/s).
+
+    Stevens & Lewis, Aircraft Control and Simulation, 1.4.
+    """
     c, s, turn = cos(phi), sin(phi), psidot * cos(theta)
     return (phidot - psidot * sin(theta), thetadot * c + turn * s, turn * c - thetadot * s)

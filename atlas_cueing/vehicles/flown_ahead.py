@@ -7,7 +7,9 @@ MOST_STATES = 1_000_000  # 0.5 GB; two hours at 120 Hz
 
 
 class FlownAhead:
-    """Flies a vehicle to its end when made, and then plays its states back one after the other (implements signals.Vehicle).
+    """Flies a vehicle to its end when made, and then plays its states back.
+
+    It implements `signals.Vehicle`.
 
     For cueing that has to know the whole flight before the first tick. A failure of the vehicle
     comes where it came in the

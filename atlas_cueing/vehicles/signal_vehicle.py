@@ -1,10 +1,14 @@
-"""Test signals as a vehicle: known rates and forces, to measure what the rest of the pipeline makes of them.
+"""Test signals as a vehicle: known rates and forces.
+
+They measure what the rest of the pipeline makes of them.
 
 The vehicle begins level and at rest. Its body rates are sums of signals, its attitude is their
 integral, and its specific force at the pilot's eye is
 
-    f_B = R_BN (0, 0, -g) + signals     `force_follows_attitude` (default): turned in place, gravity moves in its axes
-    f_B =      (0, 0, -g) + signals     held: a coordinated vehicle, whose turns are not felt as force
+    f_B = R_BN (0, 0, -g) + signals     `force_follows_attitude` (default): turned in place,
+                                        gravity moves in its axes
+    f_B =      (0, 0, -g) + signals     held: a coordinated vehicle, whose turns are not
+                                        felt as force
 
 The objective motion cueing test (ICAO Doc 9625; R. Hosman & S. Advani, Aeronautical Journal 120,
 2016) drives one axis at a time with sines and asks for rotation and specific force at the rider's
@@ -56,7 +60,9 @@ _SUBSTEPS = 4
 
 @dataclass(frozen=True, slots=True)
 class Signal:
-    """A smooth signal on one axis: zero until `time` and after `time` + `duration` (s), with two continuous derivatives.
+    """A smooth signal on one axis, with two continuous derivatives.
+
+    It is zero until `time` and after `time` + `duration` (s).
 
     axis: body rate about, or specific force along, the forward, right or down axis of the body;
         what signals of one axis ask for is added.
@@ -149,7 +155,10 @@ class Signal:
         return x * x * x * (10.0 - x * (15.0 - 6.0 * x)) if x < 1.0 else 1.0
 
     def _swept(self, s: float) -> float:
-        """Phase of the sweep (rad): the integral of frequency * k^(s / duration), with k = end_frequency / frequency."""
+        """Phase of the sweep (rad).
+
+        The integral of frequency * k^(s / duration), with k = end_frequency / frequency.
+        """
         growth = log(self.end_frequency / self.frequency)
         if abs(growth) < 1e-9:
             return self.frequency * s

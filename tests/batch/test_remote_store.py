@@ -1,4 +1,4 @@
-"""Results at a URL: file:// as workers see it, and fsspec's file system in memory for everything else."""
+"""Results at a URL: file:// as workers see it, and fsspec's file system in memory."""
 
 import sys
 from collections.abc import Iterator
@@ -269,7 +269,8 @@ def test_a_worker_never_has_a_driver_of_its_own(
         f"os.register_at_fork(before=lambda: 'fsspec' in sys.modules and open('{tmp_path}/seen',"
         " 'w'))"
     )
-    code = f"import os, sys; from atlas_cueing.batch import worker_main as worker; {seen}; worker.main()"
+    main = "from atlas_cueing.batch import worker_main as worker"
+    code = f"import os, sys; {main}; {seen}; worker.main()"
     monkeypatch.setattr(workers, "_COMMAND", (sys.executable, "-c", code))
     outcomes = fly_batch(
         planned(tmp_path),

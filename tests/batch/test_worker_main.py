@@ -37,7 +37,7 @@ def told(orders: list[Job]) -> list[JobResult]:
 
 
 def orders(folder: Path, limits: RunLimits) -> list[Job]:
-    """A run that comes to harm under `sabotage`, and one that does not, after it in the same worker."""
+    """A run that comes to harm under `sabotage`, and another after it in the same worker."""
     first, second, *_ = planned(folder)
     return [order(second, folder, limits), order(first, folder, replace(limits, time=LIMITS.time))]
 
@@ -66,9 +66,8 @@ def orders(folder: Path, limits: RunLimits) -> list[Job]:
             "needs more than 1 GB: ended with exit status 1",
         ),
         (
-            "alone.run_scenario = lambda *_: bytearray(2 * 10**9); return fly(order, workdir)".replace(
-                "; return", "\n        return"
-            ),
+            "alone.run_scenario = lambda *_: bytearray(2 * 10**9)"
+            "\n        return fly(order, workdir)",
             RunLimits(memory=1.0),
             "out_of_memory",
             "needs more than 1 GB",

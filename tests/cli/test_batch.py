@@ -207,7 +207,7 @@ def test_a_local_cluster(sweep: Command, tmp_path: Path) -> None:
 
 
 def test_to_a_url_and_again(sweep: Command, tmp_path: Path) -> None:
-    """The same files as in a folder, the second time only what is missing, and pages for what is there."""
+    """The same files as in a folder; the second time only what is missing, and pages."""
     url = f"file://{tmp_path}/there"
     assert sweep("batch", "s.toml", "-o", "here").status == 0
     first = sweep("batch", "s.toml", "-o", url, "--jobs", "1", "--top", "0")
@@ -255,7 +255,7 @@ def logs(folder: Path) -> dict[str, tuple[int, str]]:
 
 
 def test_a_driver_killed_again_and_again(sweep: Command, tmp_path: Path) -> None:
-    """Whatever was complete is neither flown again nor changed, and in the end everything is there."""
+    """What was complete is neither flown again nor changed; in the end everything is there."""
     (tmp_path / "s.toml").write_text(SWEEP.replace("0.45", "2.0"))
     moments = random.Random(7)
     for count in range(3):

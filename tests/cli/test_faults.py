@@ -15,6 +15,7 @@ import pytest
 
 from atlas_cueing.recording import read_log
 from atlas_cueing.run import fly as run_module
+from atlas_cueing.run.ticks import BLOCK
 
 from .conftest import SCRIPT, Command
 
@@ -31,7 +32,7 @@ ROOM = 200_000  # bytes; a tenth of the log
 
 def at_block(monkeypatch: pytest.MonkeyPatch, number: int, deed: object) -> None:
     """Do the deed when a run has kept so many blocks of ticks."""
-    keep, kept = run_module._Keeper.keep, []
+    keep, kept = run_module._RunLog.add, []
 
     def keeping(self: object, states: object) -> None:
         keep(self, states)  # type: ignore[arg-type]
@@ -39,7 +40,7 @@ def at_block(monkeypatch: pytest.MonkeyPatch, number: int, deed: object) -> None
         if len(kept) == number:
             deed()  # type: ignore[operator]
 
-    monkeypatch.setattr(run_module._Keeper, "keep", keeping)
+    monkeypatch.setattr(run_module._RunLog, "add", keeping)
 
 
 def test_a_full_disk(tmp_path: Path, command: Command) -> None:
@@ -107,7 +108,7 @@ def test_asked_to_stop(
     assert ended.err.startswith("interrupted: asked to stop at ")
     log = read_log(tmp_path / "short.mcap")
     assert log.metadata["result"] == "interrupted"
-    assert 3 * run_module.BLOCK <= len(log.column("/motion", "time_s")) <= 4 * run_module.BLOCK
+    assert 3 * BLOCK <= len(log.column("/motion", "time_s")) <= 4 * BLOCK
 
 
 def test_killed(tmp_path: Path, command: Command) -> None:
@@ -115,8 +116,8 @@ def test_killed(tmp_path: Path, command: Command) -> None:
     (tmp_path / "s.toml").write_text(LONG)
     killing = (
         "import os, sys; from atlas_cueing.run import fly as r; from atlas_cueing.cli import"
-        " main; keep = r._Keeper.keep\ndef k(self, states):\n keep(self, states)\n if"
-        " self._flown.ticks > 600: os.kill(os.getpid(), 9)\nr._Keeper.keep = k\nsys.exit(main())"
+        " main; keep = r._RunLog.add\ndef k(self, states):\n keep(self, states)\n if"
+        " self.ticks > 600: os.kill(os.getpid(), 9)\nr._RunLog.add = k\nsys.exit(main())"
     )
     ended = subprocess.run(
         [sys.executable, "-c", killing, "run", "s.toml"],
@@ -128,7 +129,7 @@ def test_killed(tmp_path: Path, command: Command) -> None:
     assert ended.returncode == -signal.SIGKILL
     assert sorted(path.name for path in tmp_path.iterdir()) == ["s.toml", "short.mcap.part"]
     assert command("recover", "short.mcap.part", "-o", "saved.mcap").status == 0
-    flown = -(-601 // run_module.BLOCK) * run_module.BLOCK
+    flown = -(-601 // BLOCK) * BLOCK
     assert len(read_log(tmp_path / "saved.mcap").column("/motion", "time_s")) == flown // 64 * 64
 
 

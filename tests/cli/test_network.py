@@ -1,4 +1,7 @@
-"""Without any network interface everything is the same, and no socket is open: the kernel's own list is empty."""
+"""Without any network interface everything is the same, and no socket is open.
+
+The kernel's own list is empty.
+"""
 
 import shutil
 import subprocess
@@ -17,19 +20,24 @@ import sys
 from pathlib import Path
 from atlas_cueing.run import fly as run
 from atlas_cueing.cli import main
-fly, seen = run.fly, []
+fly, seen = run._fly, []
 def flying(*arguments):
-    fly(*arguments)
+    outcome = fly(*arguments)
     seen.append([line for kind in ("tcp", "tcp6", "udp", "udp6", "raw")
                  for line in Path("/proc/self/net", kind).read_text().splitlines()[1:]])
-run.fly = flying
-status = main(["run", "s.toml", "-o", sys.argv[1], "--trust-models", "--set", "vehicle.script=" + sys.argv[2]])
-interfaces = [line.split(":")[0].strip() for line in Path("/proc/self/net/dev").read_text().splitlines()[2:]]
+    return outcome
+run._fly = flying
+script = "vehicle.script=" + sys.argv[2]
+status = main(["run", "s.toml", "-o", sys.argv[1], "--trust-models", "--set", script])
+lines = Path("/proc/self/net/dev").read_text().splitlines()[2:]
+interfaces = [line.split(":")[0].strip() for line in lines]
 print(status, interfaces, seen, file=sys.stderr)
 """
 USERS = """<runscript>
   <use aircraft="737" initialize="cruise_init"/>
-  <output name="127.0.0.1" type="SOCKET" protocol="UDP" port="45997" rate="10"><rates>ON</rates></output>
+  <output name="127.0.0.1" type="SOCKET" protocol="UDP" port="45997" rate="10">
+    <rates>ON</rates>
+  </output>
   <input port="45998"/>
   <run start="0.0" end="0.4" dt="0.01"/>
 </runscript>

@@ -1,4 +1,4 @@
-"""Where the commands write: beside the real file, never onto an input, never over something else."""
+"""Where the commands write: beside the real file, never onto an input or something else."""
 
 import errno
 import json

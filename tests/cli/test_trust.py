@@ -21,7 +21,10 @@ USERS = """<runscript name="glide">
 
 @pytest.fixture
 def users(command: Command, tmp_path: Path) -> Command:
-    """The command beside a scenario `s.toml` with a user's script."""
+    """The command beside a scenario `s.toml` whose aircraft lies there.
+
+    It is flown by inputs or by a script.
+    """
     (tmp_path / "s.toml").write_text(SCRIPT.replace("c1722", "mine.xml"))
     (tmp_path / "mine.xml").write_text(USERS)
     return command
@@ -100,7 +103,10 @@ SCRIPTED = """<runscript name="own">
 
 @pytest.fixture(params=["aircraft", "script"])
 def own(request: pytest.FixtureRequest, command: Command, tmp_path: Path) -> Command:
-    """The command beside a scenario `s.toml` whose aircraft lies there, flown by inputs or by a script."""
+    """The command beside a scenario `s.toml` whose aircraft lies there.
+
+    It is flown by inputs or by a script.
+    """
     shutil.copytree(own_aircraft()["c172x"].parent, tmp_path / "aircraft" / "mymodel")
     (tmp_path / "aircraft" / "mymodel" / "c172x.xml").rename(
         tmp_path / "aircraft" / "mymodel" / "mymodel.xml"

@@ -38,7 +38,10 @@ def test_without_a_change_it_repeats_the_log_to_the_last_bit(
 
 
 def test_another_method_and_platform(flight: Path, tmp_path: Path) -> None:
-    """What comes out is what a run with these settings gives: the vehicle does not know how it is cued."""
+    """What comes out is what a run with these settings gives.
+
+    The vehicle does not know how it is cued.
+    """
     settings = ("cueing.method=attitude", "platform.preset=atlas-1.5m", "recording.chunk_ticks=100")
     scenario = cue_again(flight, settings, tmp_path / "new.mcap")
     assert (scenario.file.cueing.method, scenario.platform.name) == ("attitude", "atlas-1.5m")

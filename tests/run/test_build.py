@@ -33,7 +33,10 @@ def test_at_rest_nothing_moves(tmp_path: Path) -> None:
 
 
 def test_the_platforms_numbers_arrive(tmp_path: Path) -> None:
-    """A vehicle that starts to roll: wheels turn as the platform's own J^-1 says, slower than the limit that was set."""
+    """A vehicle that starts to roll.
+
+    Wheels turn as the platform's own J^-1 says, slower than the limit that was set.
+    """
     scenario = loaded(
         tmp_path,
         "platform.wheel_limits.speed_rad_s=0.5",

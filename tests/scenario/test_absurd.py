@@ -1,4 +1,7 @@
-"""Files that are large in the wrong place: few and short messages, and no work that grows with the mistakes."""
+"""Files that are large in the wrong place: few and short messages.
+
+No work grows with the mistakes.
+"""
 
 from pathlib import Path
 

@@ -225,7 +225,7 @@ KEYS += [
 def test_anything_anywhere_is_loaded_or_refused(
     tmp_path_factory: pytest.TempPathFactory, changes: dict[str, Any], lists: list[str]
 ) -> None:
-    """Every value at every place gives a scenario or a list of mistakes that names files and keys, nothing else."""
+    """Every value at every place gives a scenario, or mistakes that name files and keys."""
     data = tomllib.loads(AIRCRAFT)
     apply_overrides(
         data,

@@ -62,7 +62,10 @@ def test_every_number_is_published_or_marked_as_assumed(name: str) -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_limits_fit_each_other(name: str) -> None:
-    """The sphere turns at half a turn a second or more, and the stage can brake from full speed within its travel."""
+    """The sphere turns at half a turn a second or more.
+
+    The stage can brake from full speed within its travel.
+    """
     platform = load_platform(name)
     assert headroom(platform.geometry(), platform.wheel_limit_values()).worst_rate > pi
     limits = platform.stage_limit_values()

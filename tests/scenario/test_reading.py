@@ -1,4 +1,4 @@
-"""The caps before the parser: what they refuse, and that they do not refuse what only looks like it."""
+"""The caps before the parser: what they refuse, and what only looks like it."""
 
 import os
 from pathlib import Path

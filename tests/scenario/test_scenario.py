@@ -1,4 +1,7 @@
-"""What a log carries is enough to fly it again: resolved texts are read back as the same scenario."""
+"""What a log carries is enough to fly it again.
+
+Resolved texts are read back as the same scenario.
+"""
 
 from pathlib import Path
 

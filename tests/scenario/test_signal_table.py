@@ -28,7 +28,10 @@ def test_signals_in_si(tmp_path: Path) -> None:
 
 
 def test_signals_fly_and_their_log_flies_again(tmp_path: Path) -> None:
-    """The batch run knows the source, and what it attaches to the log is a scenario of the same flight."""
+    """The batch run knows the source.
+
+    What it attaches to the log is a scenario of the same flight.
+    """
     (tmp_path / "s.toml").write_text(SIGNALS)
     scenario = load_scenario(tmp_path / "s.toml", ["vehicle.signal.0.amplitude_deg_s=45"])
     result = run_scenario(scenario, tmp_path / "log.mcap")

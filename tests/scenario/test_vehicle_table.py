@@ -291,7 +291,10 @@ def test_flightgear_and_its_defaults(tmp_path: Path) -> None:
 
 
 def test_a_recording_lies_beside_the_scenario(tmp_path: Path) -> None:
-    """Whether it is there is seen when it is played: the scenario inside a log must load without it."""
+    """Whether it is there is seen when it is played.
+
+    The scenario inside a log must load without it.
+    """
     path = tmp_path / "s.toml"
     path.write_text(RECORDING)
     assert load_scenario(path).live_flight == RecordedFlight(tmp_path / "logs/flown.mcap")

@@ -34,7 +34,7 @@ def write_script(
     aircraft: str = "c172x",
     initialize: str = "reset01",
 ) -> Path:
-    """A JSBSim script of 2 s at 100 Hz with these events, and with extra elements beside its run."""
+    """A JSBSim script of 2 s at 100 Hz with these events, and elements beside its run."""
     path.write_text(
         f'<runscript name="test"><use aircraft="{aircraft}" initialize="{initialize}"/>{extra}'
         f'<run start="0" end="2" dt="0.01">{events}</run></runscript>'
@@ -43,7 +43,7 @@ def write_script(
 
 
 def event(name: str, value: str, time: float = 0.5) -> str:
-    """A script's event that sets a property at `time` (s) to a number or to what a function element says."""
+    """A script's event that sets a property at `time` (s) to a number or a function's value."""
     inside = (
         f' value="{value}"/>'
         if not value.startswith("<")

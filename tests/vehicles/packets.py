@@ -1,4 +1,7 @@
-"""Native FDM packets by name of their fields, from the whole layout and not from what the decoder reads of it."""
+"""Native FDM packets by name of their fields.
+
+They follow the whole layout, and not what the decoder reads of it.
+"""
 
 from collections.abc import Sequence
 from math import cos, sin, tan
@@ -19,7 +22,10 @@ def packet(
     force: Three = (0.0, 0.0, -32.174),
     other: float = 7.0,
 ) -> bytes:
-    """A packet: position (longitude, latitude rad, m), height (m), angles phi, theta, psi (rad) and rates, force (ft/s^2).
+    """A packet, by position, attitude, rates and force.
+
+    Longitude and latitude (rad, m), height (m), angles phi, theta, psi (rad) and rates,
+    force (ft/s^2).
 
     `other` is in every float that is not of interest here.
     """

@@ -1,4 +1,4 @@
-"""Native FDM packets: JSBSim's own against JSBSim's own properties, and made-up ones against the layout."""
+"""Native FDM packets: JSBSim's own, and made-up ones against the layout."""
 
 import json
 import socket
@@ -82,7 +82,7 @@ def sender(request: pytest.FixtureRequest) -> Iterator[Sender]:
 
 
 def test_jsbsims_own_packets_say_what_its_properties_say(sender: Sender) -> None:
-    """From another process, over loopback: attitude to 1e-6 rad, rates and force to what floats hold."""
+    """From another process, over loopback: attitude to 1e-6 rad, the rest to floats."""
     moved = 0.0
     for steps in [1] * 5 + [40] * 30:
         content, told = sender.fly(steps)
@@ -121,7 +121,10 @@ def test_rates_and_attitude_come_back(seed: int) -> None:
 def test_a_vehicle_at_rest_shows_standard_gravity_anywhere(
     latitude: float, altitude: float
 ) -> None:
-    """Gravitation (with the Earth's oblateness, J2) and centrifugal force, by potential theory and not by the formula."""
+    """Gravitation (with the Earth's oblateness, J2) and centrifugal force.
+
+    By potential theory and not by the formula.
+    """
     a, f, gm, j2 = 6378137.0, 1.0 / 298.257223563, 3.986004418e14, 1.082629821e-3
     e2 = f * (2.0 - f)
     n = a / np.sqrt(1.0 - e2 * np.sin(latitude) ** 2)
@@ -138,7 +141,10 @@ def test_a_vehicle_at_rest_shows_standard_gravity_anywhere(
 
 
 def test_gravity_is_one_of_the_published_values() -> None:
-    """TR8350.2: 9.7803253359 at the equator, 9.8321849378 at the poles, 9.7976432222 on average (m/s^2)."""
+    """TR8350.2, in m/s^2.
+
+    9.7803253359 at the equator, 9.8321849378 at the poles, 9.7976432222 on average.
+    """
     assert normal_gravity(0.0, 0.0) == pytest.approx(9.7803253359, abs=1e-10)
     assert normal_gravity(0.5 * pi, 0.0) == pytest.approx(9.8321849378, abs=1e-9)
     sines = (np.arange(2000) + 0.5) / 1000.0 - 1.0

@@ -115,7 +115,10 @@ def test_the_attitude_is_the_integral_of_the_rate(signal: Signal, axis: SignalAx
 
 
 def test_few_steps_a_period_are_enough() -> None:
-    """The attitude is integrated finer than the steps, so that at eight of them it is still good to 1e-6 of the swing."""
+    """The attitude is integrated finer than the steps.
+
+    At eight of them it is still good to 1e-6 of the swing.
+    """
     fast = replace(SINE, frequency=2.0 * pi * 10.0 / MIN_STEPS_PER_PERIOD, amplitude=1.0, time=0.0)
     for state in fly(vehicle(fast, rate_hz=10.0))[1::9]:
         angle, _ = quad(fast.value, 0.0, state.time, limit=400)

@@ -27,7 +27,10 @@ for argument in sys.argv[2:]:
 def fly_elsewhere(
     folder: Path, duration: float, scripts: list[Path]
 ) -> subprocess.CompletedProcess[bytes]:
-    """Fly scripts in a process of its own that works in `folder` and keeps its temporary files in `folder`/temporary."""
+    """Fly scripts in a process of its own that works in `folder`.
+
+    Its temporary files lie in `folder`/temporary.
+    """
     (folder / "temporary").mkdir()
     command = [sys.executable, "-W", "error", "-c", FLY, str(duration), *map(str, scripts)]
     environment = {**os.environ, "TMPDIR": str(folder / "temporary")}

@@ -1,4 +1,7 @@
-"""Starts on the ground: the altitude is that of the centre of gravity, so the gear may be deep in it."""
+"""Starts on the ground.
+
+The altitude is that of the centre of gravity, so the gear may be deep in it.
+"""
 
 from collections.abc import Iterator
 from itertools import combinations
@@ -23,7 +26,7 @@ _SMALLEST_TRIANGLE = 1e-3  # square inches, twice the area; below it is rounding
 
 
 def check_standing(fdm: jsbsim.FGFDMExec, initial: InitialConditions) -> None:
-    """Refuse a first state whose gear is pressed into the ground far beyond what the aircraft weighs.
+    """Refuse a first state that presses the gear into the ground far beyond the weight.
 
     It would be thrown into the air, with tens of g at once. Raises StartError that says how deep it
     is and what to do.
@@ -53,7 +56,7 @@ def stand_objection(fdm: jsbsim.FGFDMExec) -> str:
 
 
 def has_flat_gear(fdm: jsbsim.FGFDMExec) -> bool:
-    """Whether three points of the gear or more lie all on one line, so that a trim ends the process."""
+    """Whether three or more points of the gear lie on one line: a trim then ends the process."""
     return fdm["gear/num-units"] >= 3 and not _triangle(fdm)
 
 

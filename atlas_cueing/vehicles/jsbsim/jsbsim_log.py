@@ -57,7 +57,10 @@ class JsbsimLog(jsbsim.FGLogger):
 
 
 def capture() -> JsbsimLog:
-    """Take over the output of every JSBSim instance of this thread, silently but for what logging is told to show."""
+    """Take over the output of every JSBSim instance of this thread.
+
+    It stays silent but for what logging shows.
+    """
     log = JsbsimLog()
     jsbsim.set_logger(log)
     return log

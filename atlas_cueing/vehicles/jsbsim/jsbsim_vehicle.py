@@ -80,7 +80,7 @@ class JsbsimVehicle:
         return running
 
     def _check_clock(self, before: float, time: float) -> None:
-        """Of a script that stops the clock or sets it back: it must come to its end all the same."""
+        """Count the steps of a script that stops or sets back the clock: it must end too."""
         if self._fdm.get_sim_time() == before:
             raise VehicleError(
                 time, "JSBSim's clock stands still; a script that holds it never ends"

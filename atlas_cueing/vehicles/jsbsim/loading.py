@@ -43,7 +43,9 @@ _SILENT = 0  # debug level: no reports on what was loaded
 
 
 def load(flight: ScriptFlight | AircraftFlight) -> jsbsim.FGFDMExec:
-    """Load what the flight asks for into a new instance (a used one is not bitwise the same), with its step set.
+    """Load what the flight asks for into a new instance, with its step set.
+
+    A used instance is not bitwise the same.
 
     Raises InputError when it does not load or the step is out of bounds.
     """
@@ -166,7 +168,10 @@ def _check_end(end: str, script: Path) -> None:
 
 
 def _check_names(tree: Element, script: Path, fdm: jsbsim.FGFDMExec) -> None:
-    """Refuse a script that sets a property which nothing defines: JSBSim would stop there in mid-run."""
+    """Refuse a script that sets a property which nothing defines.
+
+    JSBSim would stop there in mid-run.
+    """
     manager = fdm.get_property_manager()
     for name in sorted({element.get("name", "").strip() for element in tree.iter("set")}):
         if name.startswith(_OUTPUT) and is_property_name(name):

@@ -98,7 +98,7 @@ def _copy_own(model: Path, folder: Path) -> None:
 
 
 def _copy_users(aircraft: str, folder: Path, models: Path, initialize: str) -> None:
-    """The user's files, and links to those engines and systems of JSBSim's that the user has not."""
+    """The user's files, and links to JSBSim's engines and systems that the user has not."""
     model = user_model(aircraft, models)
     for relative, path in user_files(aircraft, models, initialize).items():
         tree = _read(path, "fdm_config" if path == model else "")

@@ -82,7 +82,7 @@ def _nodes(fdm: jsbsim.FGFDMExec, pattern: str, *names: str) -> list[jsbsim.FGPr
 
 
 def _heading_and_pitch(propagate: jsbsim.FGPropagate, phi: float) -> tuple[float, float]:
-    """Heading and pitch (rad) that make up JSBSim's attitude together with the roll phi, near a pitch of +-90 deg.
+    """Heading and pitch (rad) of JSBSim's attitude with the roll phi, near a pitch of +-90 deg.
 
     There any roll will do, if the heading fits it. R_BN = X(phi) Y(theta) Z(psi), so the rows of
     X(-phi) R_BN are those of Y(theta) Z(psi): the second is (-sin psi, cos psi, 0) and the third

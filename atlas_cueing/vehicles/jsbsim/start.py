@@ -97,7 +97,10 @@ def _check(initial: InitialConditions) -> None:
 
 
 def _set(fdm: jsbsim.FGFDMExec, initial: InitialConditions) -> None:
-    """Position, then attitude, then speed: JSBSim gives the velocity the direction that it has by then."""
+    """Set position, then attitude, then speed.
+
+    JSBSim gives the velocity the direction that it has by then.
+    """
     fdm["ic/lat-geod-rad"] = initial.latitude
     fdm["ic/long-gc-rad"] = initial.longitude
     fdm["ic/h-sl-ft"] = initial.altitude / METRES_PER_FOOT

@@ -1,4 +1,6 @@
-"""A process that flies a script of JSBSim and sends each step to a port, a step a line of stdin: `python jsbsim_sender.py`.
+"""A process that flies a script of JSBSim and sends each step to a port.
+
+It makes a step for each line of stdin: `python jsbsim_sender.py`.
 
 The packets are JSBSim's own. What JSBSim says of the same step goes to stdout, as a line of JSON.
 """

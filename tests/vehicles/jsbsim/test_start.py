@@ -17,7 +17,8 @@ PARKED = InitialConditions(altitude=0.0, airspeed=0.0, trim=True)
 
 def test_initial_conditions_are_taken_in_si_units() -> None:
     initial = InitialConditions(
-        altitude=2000.0, airspeed=60.0, heading=radians(200.0), pitch=radians(5.0), roll=radians(-20.0),
+        altitude=2000.0, airspeed=60.0, heading=radians(200.0), pitch=radians(5.0),
+        roll=radians(-20.0),
         latitude=radians(47.0), longitude=radians(-8.0),
     )  # fmt: skip
     fdm = load(cessna())

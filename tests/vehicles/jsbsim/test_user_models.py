@@ -1,4 +1,4 @@
-"""Aircraft of a user's own: which files they are made of, and that nothing outside of the folder is read."""
+"""Aircraft of a user's own: their files, and that nothing outside of the folder is read."""
 
 import shutil
 import socket
@@ -28,7 +28,10 @@ from ..flying import cessna, fly, write_script
 
 
 def mine(folder: Path, of: str = "c172x", name: str = "mymodel", *, engines: bool = False) -> Path:
-    """A copy of one of JSBSim's aircraft under another name, perhaps with copies of all its engines; gives the model."""
+    """A copy of one of JSBSim's aircraft under another name; gives the model.
+
+    Perhaps with copies of all its engines.
+    """
     home = folder / "aircraft" / name
     shutil.copytree(own_aircraft()[of].parent, home)
     (home / f"{of}.xml").rename(home / f"{name}.xml")
