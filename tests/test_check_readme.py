@@ -71,9 +71,7 @@ def test_long_commands_are_shortened_by_their_own_options(command: str, run: str
 
 def test_every_shortened_command_is_in_readme() -> None:
     found = [
-        command
-        for line in tool.lines((ROOT / "README.md").read_text())
-        for command in (*line.beside, line.command)
+        command for line in tool.lines(tool.texts(ROOT)) for command in (*line.beside, line.command)
     ]
     for begins in (*tool.SHORTER, *tool.INSTEAD):
         assert any(f"{command} ".startswith(f"{begins} ") for command in found), begins
