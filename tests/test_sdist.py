@@ -21,8 +21,13 @@ JUNK = (
 
 
 def files(folder: Path) -> set[str]:
-    """All files below a folder."""
-    return {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
+    """Every file below `folder` but the bytecode of the build's own modules, which Python keeps."""
+    bytecode = folder / "tools" / "__pycache__"
+    return {
+        str(path.relative_to(folder))
+        for path in folder.rglob("*")
+        if path.is_file() and path.parent != bytecode
+    }
 
 
 @pytest.fixture(scope="module")
