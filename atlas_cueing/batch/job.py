@@ -18,7 +18,7 @@ LEAST_MEMORY_LIMIT = 0.5  # GB; the interpreter with its libraries alone has 0.3
 
 @dataclass(frozen=True, slots=True)
 class RunLimits:
-    """Of each run: `time` in s of wall time, `memory` in GB (10^9 bytes) of address space."""
+    """Limits of each run: wall `time` in s, and address space `memory` in GB (10^9 bytes)."""
 
     time: float = DEFAULT_TIME_LIMIT
     memory: float = DEFAULT_MEMORY_LIMIT

@@ -42,7 +42,7 @@ class Count:
         return perf_counter() - self._begun
 
     def text(self) -> str:
-        """All of it in a line."""
+        """Everything in one line."""
         speed = self._flown / max(self.wall, 1e-9)
         runs = "1 run" if self.total == 1 else f"{self.total} runs"
         return (

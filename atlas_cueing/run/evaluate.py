@@ -67,7 +67,7 @@ class Evaluator:
     """
 
     def __init__(self, platform: Platform) -> None:
-        """Of a run on `platform` that has not begun."""
+        """Begin the evaluation of a run on `platform`."""
         self._found = _Found(platform)
         self._begin()
 
@@ -81,7 +81,7 @@ class Evaluator:
                 self._take()
 
     def evaluation(self) -> Evaluation:
-        """Of all ticks, when there are no more."""
+        """Evaluate all ticks, when there are no more."""
         self._take()
         return self._found.evaluation()
 

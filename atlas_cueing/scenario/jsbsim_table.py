@@ -74,7 +74,7 @@ class InitialTable(ScenarioTable):
     trim: bool = False
 
     def conditions(self) -> InitialConditions:
-        """The same in SI."""
+        """Convert it to SI."""
         return InitialConditions(
             altitude=self.altitude_m,
             airspeed=self.airspeed_m_s,
@@ -99,7 +99,7 @@ class InputTable(ScenarioTable):
     ramp_s: Time = 0.0
 
     def event(self) -> TimedInput:
-        """The same in SI."""
+        """Convert it to SI."""
         return TimedInput(self.time_s, self.property, self.value, self.ramp_s)
 
 
@@ -208,7 +208,7 @@ def unsettable_inputs(
 
 
 def _property(event: Any) -> str:
-    """Of an input, checked or not; nothing when it has none that can be one."""
+    """Property of an input, checked or not; nothing when it has none that can be one."""
     if isinstance(event, InputTable):
         return event.property
     name = event.get("property") if isinstance(event, dict) else None

@@ -55,7 +55,7 @@ class TomlFiles:
         self._found: dict[Path, dict[str, Any] | ScenarioError] = {}
 
     def read(self, path: Path) -> dict[str, Any]:
-        """As `read_toml`; the table is the same each time, not to be changed."""
+        """Read as `read_toml` does; the table is the same each time, not to be changed."""
         if path not in self._found:
             try:
                 self._found[path] = read_toml(path)
@@ -68,7 +68,7 @@ class TomlFiles:
 
 
 def parse_toml(text: str, file: str) -> dict[str, Any]:
-    """As `read_toml` for a text; `file` is for messages."""
+    """Parse a text as `read_toml` does; `file` is for messages."""
     _check_shape(text, file)
     try:
         table = tomllib.loads(text)

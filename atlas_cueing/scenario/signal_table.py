@@ -59,7 +59,7 @@ class SignalTable(ScenarioTable):
         return self
 
     def signal(self) -> Signal:
-        """The same in SI."""
+        """Convert it to SI."""
         return Signal(
             axis=self.axis,
             shape=self.shape,

@@ -69,7 +69,7 @@ def _triangle(fdm: jsbsim.FGFDMExec) -> bool:
 
 
 def _force(fdm: jsbsim.FGFDMExec) -> float:
-    """Of the ground, lbf."""
+    """Force of the ground, lbf."""
     return sqrt(sum(fdm[f"forces/fb{axis}-gear-lbs"] ** 2 for axis in "xyz"))
 
 

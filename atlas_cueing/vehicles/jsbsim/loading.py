@@ -192,7 +192,7 @@ def _checked(rate_hz: float) -> float:
 
 
 def input_objections(aircraft: str, models: Path | None, names: Iterable[str]) -> dict[str, str]:
-    """Those of an aircraft's properties that cannot be set: name to the reason.
+    """Properties of an aircraft that cannot be set: name to the reason.
 
     Raises StartError when the aircraft does not load.
     """
