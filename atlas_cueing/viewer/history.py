@@ -74,7 +74,7 @@ class History:
 
     @property
     def timing(self) -> tuple[float, float, float, float, int]:
-        """Timing of the last tick: lateness, cost, input age (s), missed deadlines, state's place."""
+        """Timing of the last tick: lateness, cost, input age (s), missed deadlines, state."""
         lateness, cost, age, missed, state = (
             (0.0,) * 5 if self._last is None else self._last[_TIMING].tolist()
         )
