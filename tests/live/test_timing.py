@@ -46,4 +46,4 @@ def test_figures_have_their_units_in_their_names() -> None:
     assert figures["lateness_max_us"] == pytest.approx(400.0)
     assert figures["tick_cost_max_us"] == pytest.approx(800.0)
     assert figures["lateness_p50_us"] == pytest.approx(20.5, abs=0.6)
-    assert len(figures) == 12
+    assert len(figures) == 14
