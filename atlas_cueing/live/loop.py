@@ -146,7 +146,9 @@ class Loop:
     def _tick_timing(self, elapsed: float, lateness: float, cost: float) -> TickTiming:
         age, state = self._controller.reading.age, self._controller.state.number
         age = age if isfinite(age) else -1.0  # there was no sample yet
-        return TickTiming(self.time, elapsed, lateness, cost, age, self.timing.missed, state)
+        timing = self.timing
+        behind = timing.wheel_difference, timing.stage_difference
+        return TickTiming(self.time, elapsed, lateness, cost, age, timing.missed, state, *behind)
 
     def _report_changes(self) -> None:
         """Report the changes of state since the last tick, before the first tick of a new state."""
