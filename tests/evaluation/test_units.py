@@ -64,7 +64,7 @@ def test_what_is_shown_where() -> None:
     assert [name for name in names(Shown.BATCH) if name in batch] == batch
     rows = [metric.summary.row for metric in DECLARED.values() if metric.summary]
     assert list(dict.fromkeys(rows)) == [
-        *("specific force", "force direction", "angular rate", "attitude"),
+        *("mismatch", "specific force", "force direction", "angular rate", "attitude"),
         *("net turns", "lag behind cue", "limited"),
     ]
 
