@@ -249,12 +249,12 @@ METRICS: Mapping[type[Figures], tuple[Metric, ...]] = {
 
 CONSISTENCY = (
     Metric(
-        "wheel_speed_mismatch_max",
+        "wheel_speed_residual_max",
         WHEEL_RAD_S,
         "Largest difference of a logged wheel speed from J^-1 times the logged rate.",
     ),
     Metric(
-        "wheel_acceleration_mismatch_max",
+        "wheel_acceleration_residual_max",
         WHEEL_RAD_S2,
         "Largest difference of a logged wheel acceleration from J^-1 times the logged one.",
     ),

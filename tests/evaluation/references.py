@@ -296,8 +296,8 @@ def consistency(flight: RunColumns, sphere_from_wheels: np.ndarray) -> Figures:
     acceleration = np.linalg.solve(sphere_from_wheels, flight.motion_alpha_W.T).T
     drift = reintegrate(flight, sphere_from_wheels) * rotations(flight.motion_q_WS).inv()
     return {
-        "wheel_speed_mismatch_max_rad_s": float(np.max(np.abs(flight.wheel_speed - speed))),
-        "wheel_acceleration_mismatch_max_rad_s2": float(
+        "wheel_speed_residual_max_rad_s": float(np.max(np.abs(flight.wheel_speed - speed))),
+        "wheel_acceleration_residual_max_rad_s2": float(
             np.max(np.abs(flight.wheel_acceleration - acceleration))
         ),
         "orientation_drift_final_rad": float(drift.magnitude()[-1]),
