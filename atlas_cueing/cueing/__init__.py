@@ -24,6 +24,7 @@ from .method import (
 from .methods import CAUSAL_METHODS, DEFAULT_METHOD, METHODS
 from .preview import PreviewParameters
 from .stage.stage_parameters import MpcParameters, StageParameters
+from .still import StillParameters
 
 __all__ = [
     "CAUSAL_METHODS",
@@ -45,5 +46,6 @@ __all__ = [
     "RotationParameters",
     "SlowTurnParameters",
     "StageParameters",
+    "StillParameters",
     "build_cueing",
 ]

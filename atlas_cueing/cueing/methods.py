@@ -10,6 +10,7 @@ _MODULES = (
     "blend",
     "force",
     "classical",
+    "still",
     "preview",
 )
 
