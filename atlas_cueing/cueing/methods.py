@@ -9,6 +9,7 @@ _MODULES = (
     "attitude",
     "blend",
     "force",
+    "perceptual",
     "classical",
     "still",
     "preview",
