@@ -109,6 +109,7 @@ def smoothed() -> tuple[str, str]:
             motion.p_WS_W,
             motion.v_WS_W,
             motion.a_WS_W,
+            smoothing.wheel_motion()[0],
         )
         if k == SPOILT:
             command = replace(command, v_WS_W=(nan, 0.0, 0.0))

@@ -31,7 +31,14 @@ from benchmarks.machine import build_kind  # noqa: E402
 RATE_HZ = 120.0
 CHUNK = 32  # ticks
 # Calls a tick as they were, in a flight of c1722 at 120 Hz.
-CUEING = {"attitude": 121, "blend": 146, "force": 134, "classical": 73}
+CUEING = {
+    "attitude": 121,
+    "blend": 146,
+    "force": 134,
+    "perceptual": 159,
+    "classical": 73,
+    "still": 64,
+}
 SMOOTHING, WHEELS, RECORDING = 145, 4, 23
 SOLVES = 180  # a second: three axes, 60 plans each
 ROOM = 2.0

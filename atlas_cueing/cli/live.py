@@ -39,6 +39,14 @@ Duration: TypeAlias = Annotated[
         min=0.0,
     ),
 ]
+Lead: TypeAlias = Annotated[
+    float,
+    typer.Option(
+        "--lead",
+        help="Send set points so much ahead of a tick's end; it bears such lateness. 2 to 80.",
+        metavar="MS",
+    ),
+]
 View: TypeAlias = Annotated[
     bool, typer.Option("--view", help="Serve a 3D view with buttons on the loopback (extra: live).")
 ]
@@ -94,6 +102,7 @@ def live_command(
     wait: Wait = False,
     setpoints: SetPoints = None,
     key: KeyFile = None,
+    lead: Lead = 8.0,
     foxglove: Foxglove = None,
     priority: Priority = False,
     settings: Settings = None,
@@ -130,6 +139,7 @@ def live_command(
         engage=not wait,
         priority=priority,
         announce=not as_json,
+        lead=1e-3 * lead,
     )
     session = LiveSession(loaded, log, options)
     with StopRequest(interrupt=False) as stop:

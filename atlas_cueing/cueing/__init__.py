@@ -12,6 +12,7 @@ from .blend import BlendParameters
 from .cabin import SlowTurnParameters
 from .classical import CLASSICAL_STAGE, ClassicalParameters
 from .cueing import Cueing, build_cueing
+from .felt_turn import FeltTurnParameters
 from .force import ForceParameters
 from .method import (
     CueSource,
@@ -22,8 +23,10 @@ from .method import (
     RotationParameters,
 )
 from .methods import CAUSAL_METHODS, DEFAULT_METHOD, METHODS
+from .perceptual import PerceptualParameters
 from .preview import PreviewParameters
 from .stage.stage_parameters import MpcParameters, StageParameters
+from .still import StillParameters
 
 __all__ = [
     "CAUSAL_METHODS",
@@ -35,15 +38,18 @@ __all__ = [
     "ClassicalParameters",
     "CueSource",
     "Cueing",
+    "FeltTurnParameters",
     "ForceParameters",
     "Method",
     "MethodParameters",
     "MpcParameters",
+    "PerceptualParameters",
     "PlanParameters",
     "PreviewParameters",
     "Rotation",
     "RotationParameters",
     "SlowTurnParameters",
     "StageParameters",
+    "StillParameters",
     "build_cueing",
 ]

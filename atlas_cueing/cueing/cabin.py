@@ -99,42 +99,60 @@ class SlowTurn:
         error: rotation vector still to go (rad, S); w: the lasting rate (rad/s, S).
         """
         wish = add(scale(1.0 / self._time, error), w)
-        size = norm(wish)
-        return self._damped.step(wish if size <= self._rate else scale(self._rate / size, wish))
+        return self._damped.step(limited(wish, self._rate))
 
 
-class Cabin:
-    """Orientation q_WS that turns with a given rate plus the slow turn.
+def limited(v: Vec3, most: float) -> Vec3:
+    """Give the vector v, shortened to the length `most` where it is longer."""
+    size = norm(v)
+    return v if size <= most else scale(most / size, v)
+
+
+class FreeCabin:
+    """Orientation q_WS that turns with a given rate plus an extra one.
 
     Integrated, so that it can go on for ever.
     """
 
-    def __init__(self, dt: float, q_WS: Quat, w_S: Vec3, parameters: SlowTurnParameters) -> None:
+    def __init__(self, dt: float, q_WS: Quat, w_S: Vec3) -> None:
         """Begin in q_WS, turning with w_S (rad/s, S); dt in s."""
         self._dt, self.q_WS, self._w_S = dt, q_WS, w_S
-        self._slow, self._w_slow, self._turn = SlowTurn(dt, parameters), ZERO, ZERO
+        self._w_extra, self._carried = ZERO, ZERO
 
     def carry(self, w_S: Vec3) -> None:
         """Turn for one tick with the rate w_S (rad/s, S), by the trapezoid."""
         before, self._w_S = self._w_S, w_S
-        self._turn = scale(0.5 * self._dt, add(before, w_S))
-        self.q_WS = integrate_body(self.q_WS, self._turn, before, w_S, self._dt)
+        self._carried = scale(0.5 * self._dt, add(before, w_S))
+        self.q_WS = integrate_body(self.q_WS, self._carried, before, w_S, self._dt)
 
-    def correct(self, error_S: Vec3, w_S: Vec3 = ZERO) -> None:
-        """Turn slowly for the same tick.
-
-        error_S: rotation vector that is then left (rad, S); w_S: the lasting rate (rad/s, S).
-        """
-        before, self._w_slow = self._w_slow, self._slow.step(error_S, w_S)
-        slow = scale(0.5 * self._dt, add(before, self._w_slow))
+    def turn(self, w_extra: Vec3) -> None:
+        """Turn for the same tick with the extra rate w_extra (rad/s, S), by the trapezoid."""
+        before, self._w_extra = self._w_extra, w_extra
+        extra = scale(0.5 * self._dt, add(before, w_extra))
         # as if both turns were made at once, to second order
-        slow = subtract(slow, scale(0.5, cross(self._turn, slow)))
-        self.q_WS = normalise(multiply(self.q_WS, exp(slow)))
+        extra = subtract(extra, scale(0.5, cross(self._carried, extra)))
+        self.q_WS = normalise(multiply(self.q_WS, exp(extra)))
 
     @property
     def cue(self) -> tuple[Quat, Vec3]:
         """The orientation q_WS and the rate w_WS_W (rad/s)."""
-        return self.q_WS, rotate(self.q_WS, add(self._w_S, self._w_slow))
+        return self.q_WS, rotate(self.q_WS, add(self._w_S, self._w_extra))
+
+
+class Cabin(FreeCabin):
+    """A cabin whose extra rate is the slow turn."""
+
+    def __init__(self, dt: float, q_WS: Quat, w_S: Vec3, parameters: SlowTurnParameters) -> None:
+        """Begin in q_WS, turning with w_S (rad/s, S); dt in s."""
+        super().__init__(dt, q_WS, w_S)
+        self._slow = SlowTurn(dt, parameters)
+
+    def correct(self, error_S: Vec3, w_S: Vec3 = ZERO) -> None:
+        """Turn slowly for the tick that it was carried for.
+
+        error_S: rotation vector that is then left (rad, S); w_S: the lasting rate (rad/s, S).
+        """
+        self.turn(self._slow.step(error_S, w_S))
 
 
 def upright(q_NB: Quat) -> Quat:

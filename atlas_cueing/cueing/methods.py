@@ -9,7 +9,9 @@ _MODULES = (
     "attitude",
     "blend",
     "force",
+    "perceptual",
     "classical",
+    "still",
     "preview",
 )
 

@@ -44,6 +44,7 @@ UNITS = {  # by the end of the key, the longer ends first
     "_rad_s": Unit("rad/s"),
     "_m_s2": Unit("m/s^2"),
     "_m_s": Unit("m/s"),
+    "_per_s": Unit("1/s"),
     "_deg": Unit("deg", in_degrees=True),
     "_rad": Unit("rad"),
     "_hz": Unit("Hz"),

@@ -14,7 +14,7 @@ from .statistics import Peaks
 class Consistency:
     """How well the logged quantities agree with each other.
 
-    - wheel_speed_mismatch_max_rad_s, wheel_acceleration_mismatch_max_rad_s2: logged wheels against
+    - wheel_speed_residual_max_rad_s, wheel_acceleration_residual_max_rad_s2: logged wheels against
       J^-1 (Eq. 22) times the logged motion, w_WS and alpha in W;
     - orientation_drift_final_rad, orientation_drift_max_rad: angle between the logged q_WS and the
       orientation that the wheels alone make of the first one, by q' = 1/2 Omega o q with
@@ -43,10 +43,10 @@ class Consistency:
         )
 
     def figures(self) -> dict[str, float]:
-        """Mismatches and drift of all blocks so far."""
+        """Residuals and drift of all blocks so far."""
         return {
-            "wheel_speed_mismatch_max_rad_s": self._speed.largest,
-            "wheel_acceleration_mismatch_max_rad_s2": self._acceleration.largest,
+            "wheel_speed_residual_max_rad_s": self._speed.largest,
+            "wheel_acceleration_residual_max_rad_s2": self._acceleration.largest,
             "orientation_drift_final_rad": self._final,
             "orientation_drift_max_rad": self._largest,
         }

@@ -9,7 +9,7 @@ from ..rotations import Array
 from ..signals import STANDARD_GRAVITY
 from .correlation import Correlation
 from .cues import FORCE_THRESHOLD, RATE_THRESHOLD, CueCounter
-from .run_columns import RunColumns
+from .run_columns import RunColumns, mean_step
 from .statistics import Spread
 from .vestibular import CANALS, OTOLITHS, Organ, Sensing
 
@@ -74,7 +74,7 @@ class Fidelity:
 
     def add(self, block: RunColumns) -> None:
         """Take in the next ticks."""
-        self._sensations = self._sensations or _sensations(_step(block.time))
+        self._sensations = self._sensations or _sensations(mean_step(block.time))
         for quantity in self._sensations:
             quantity.add(block)
 
@@ -86,11 +86,6 @@ class Fidelity:
             for quantity in quantities:
                 figures |= part(quantity)
         return figures
-
-
-def _step(time: Array) -> float:
-    """Mean time from tick to tick, s; 1 for a single tick."""
-    return float(time[-1] - time[0]) / (len(time) - 1) if len(time) > 1 else 1.0
 
 
 class _Sensation:

@@ -120,6 +120,11 @@ def gathered(figures: Figures, flight: RunColumns) -> dict[str, float]:
     return figures.figures()
 
 
+def mean_step(time: Array) -> float:
+    """Mean time from tick to tick of the times (n,), s; 1 for a single tick."""
+    return float(time[-1] - time[0]) / (len(time) - 1) if len(time) > 1 else 1.0
+
+
 class Tail:
     """The last rows of a block, kept to be put in front of the next one.
 

@@ -100,3 +100,41 @@ class Spread(Magnitudes):
             f"{name}_p95_{unit}": self.quantile(0.95),
             f"{name}_max_{unit}": self.largest,
         }
+
+
+class WorstWindow:
+    """Largest mean of values x (n,), none of them negative, over a sliding window of ticks.
+
+    Only the last window is kept. Sums over windows are differences of sums over a window and a
+    block, so that they lose few digits.
+    """
+
+    def __init__(self, ticks: int) -> None:
+        """Begin without values; `ticks` is the length of the window, at least 1."""
+        self._ticks = ticks
+        self._count = 0
+        self._largest = 0.0  # sum over a whole window
+        self._kept: Array = np.empty(0)
+
+    def add(self, x: Array) -> None:
+        """Take in the next values (n,), of which there may be none."""
+        joined = np.concatenate([self._kept, x])
+        self._count += len(x)
+        self._kept = joined[max(len(joined) - self._ticks, 0) :]
+        if self._count > self._ticks and len(x):
+            self._largest = float(np.maximum(self._largest, _largest_sum(joined, self._ticks)))
+
+    @property
+    def mean(self) -> float:
+        """Largest mean over a window; over all values while they fill no more than one."""
+        if self._count > self._ticks:
+            return self._largest / self._ticks
+        return float(np.mean(self._kept)) if self._count else 0.0
+
+
+def _largest_sum(x: Array, ticks: int) -> float:
+    """Largest sum of so many neighbours in x (n,), n >= ticks; the sum of all if it is infinite."""
+    sums = np.concatenate([[0.0], np.cumsum(x)])
+    if not np.isfinite(sums[-1]):
+        return float(sums[-1])
+    return float(np.max(sums[ticks:] - sums[:-ticks]))

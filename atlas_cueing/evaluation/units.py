@@ -36,6 +36,8 @@ class Unit:
 _DEGREES = degrees(1.0)
 
 NUMBER = Unit("", "", "", decimals=4)
+JND = Unit("", "JND", "JND", decimals=2)
+"""Just noticeable differences: a ratio to a threshold, so that names do not end in it."""
 COUNT = Unit("", "", "", decimals=0)
 RAD = Unit("rad", "rad", "deg", _DEGREES)
 RAD_S = Unit("rad_s", "rad/s", "deg/s", _DEGREES)

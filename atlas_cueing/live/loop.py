@@ -1,9 +1,13 @@
-"""The real-time loop: one tick a period against the clock.
+"""The real-time loop: one tick a slot, one slot a period of the clock.
 
-A tick belongs to the deadline start + slot dt. Deadlines that pass before their tick can begin are
-missed: they are counted and left out, never made up by running twice. The platform's own time goes
-on by dt a tick, so that its motion is even however late the ticks are; /timing keeps the real time
-beside it.
+Slot k = 1, 2, ... has the deadline start + k dt, the platform's time k dt, and a set point due at
+
+    d_k = start + (k + 1) dt + lead
+
+since whoever follows set points needs number k when number k - 1 is due. A slot that begins late is
+run all the same and those behind it in order, without a sleep: a late ride is the punctual one, bit
+for bit. A slot is lost when its set point would come after d_k-1; what follows is up to the
+controller. Deadlines and due times are whole nanoseconds from the start: no rounding adds up.
 """
 
 from collections.abc import Sequence
@@ -15,10 +19,10 @@ from ..signals import Timing as TickTiming
 from .clock import Clock
 from .control.command import Command
 from .control.controller import LiveController
+from .control.slot import Slot
 from .timing import LoopTiming
 
-# s from a tick's deadline to the time its set point is for; what a drive may use up of it is jitter
-LEAD = 0.008
+LEAD = 0.008  # s, by default: what lateness and transport of a set point may use up
 
 
 class Output(Protocol):
@@ -34,15 +38,13 @@ class Output(Protocol):
 class Drives(Protocol):
     """Takes commands to the drives without ever making the loop wait."""
 
-    def send(
-        self, sequence: int, time: float, valid_from: float, state: int, command: Command
-    ) -> None:
-        """Take one set point.
+    def send(self, sequence: int, time: float, due: int, state: int, command: Command) -> bool:
+        """Take one set point; return whether it went out.
 
         Args:
             sequence: number of the tick, from 1.
             time: of the platform, s.
-            valid_from: when the command is due, s of the loop's clock.
+            due: when the drives shall have that motion, ns of the loop's clock.
             state: place of the state in signals.LIVE_STATES.
             command: motion of the drives.
         """
@@ -64,61 +66,66 @@ class Loop:
         outputs: Sequence[Output],
         drives: Sequence[Drives],
         origin: float | None = None,
+        lead: float = LEAD,
     ) -> None:
         """Set up; nothing runs yet.
 
         Args:
-            dt: tick, s.
+            dt: tick, s, in whole nanoseconds.
             clock: of the deadlines.
             controller: makes the ticks.
             outputs: take every tick and every change of state.
             drives: take every command.
             origin: s of the clock that the log counts its real time from; the loop's start by
                 default.
+            lead: from the end of a slot to the time its set point is due, s.
         """
-        self._dt = dt
+        self._dt, self._dt_ns, self._lead_ns = dt, round(1e9 * dt), round(1e9 * lead)
         self._clock = clock
         self._controller = controller
         self._outputs = outputs
         self._drives = drives
         self._origin = origin
         self._missed_in_a_row = 0
+        self._last_sent: Command | None = None
         self.ticks, self.time = 0, 0.0
         self.timing = LoopTiming()
 
     def run(self) -> None:
         """Tick until the controller's run is over."""
-        start, slot = self._clock.now() + self._dt, 0
-        origin = start if self._origin is None else self._origin
+        start = round(1e9 * self._clock.now())
+        origin = 1e-9 * (start + self._dt_ns) if self._origin is None else self._origin
         while not self._controller.over:
-            deadline = start + slot * self._dt
+            self.ticks += 1
+            deadline_ns = start + self.ticks * self._dt_ns
+            deadline = 1e-9 * deadline_ns
             self._clock.sleep_until(deadline)
             begun = self._clock.now()
-            slot += 1 + self._count_missed(begun - deadline)
-            self._tick(deadline, deadline - start, deadline - origin, begun)
+            self._count_missed(begun - deadline)
+            self._tick(
+                deadline_ns + self._dt_ns + self._lead_ns, deadline - origin, begun - deadline
+            )
         self._report_changes()
 
-    def _count_missed(self, lateness: float) -> int:
-        """Count and return the whole periods by which this tick is late."""
-        missed = int(lateness / self._dt)
-        self._missed_in_a_row = self._missed_in_a_row + missed if missed else 0
+    def _count_missed(self, lateness: float) -> None:
+        """Count a slot that begins when the next one should."""
+        missed = lateness >= self._dt
+        self._missed_in_a_row = self._missed_in_a_row + 1 if missed else 0
         self.timing.missed += missed
         self.timing.longest_row = max(self.timing.longest_row, self._missed_in_a_row)
-        return missed
 
-    def _tick(self, deadline: float, running: float, elapsed: float, begun: float) -> None:
+    def _tick(self, due: int, elapsed: float, lateness: float) -> None:
         """Run one tick.
 
         Args:
-            deadline: of the tick, s of the clock.
-            running: the deadline from the loop's start, s.
-            elapsed: the deadline from the log's origin, s.
-            begun: when the tick began, s of the clock.
+            due: time of its set point, ns of the clock.
+            elapsed: its deadline from the log's origin, s.
+            lateness: from its deadline to its beginning, s.
         """
-        self.ticks += 1
-        self.time, lateness = self.ticks * self._dt, begun - deadline
-        tick, command = self._controller.tick(self.time, running, lateness, self._missed_in_a_row)
-        self._send(deadline + LEAD, command)
+        begun, self.time = self._clock.now(), self.ticks * self._dt
+        slot = Slot(self._clock.now, self.time, 1e-9 * (due - self._dt_ns))
+        tick, command = self._controller.tick(slot)
+        self._send(due, command)
         cost = self._clock.now() - begun
         self.timing.lateness.add(lateness)
         self.timing.cost.add(cost)
@@ -127,15 +134,21 @@ class Loop:
         for output in self._outputs:
             output.tick(tick, timing)
 
-    def _send(self, valid_from: float, command: Command) -> None:
+    def _send(self, due: int, command: Command) -> None:
+        """Send the set point of this slot; measure how far off the last one that went out is."""
         state = self._controller.state.number
-        for drive in self._drives:
-            drive.send(self.ticks, self.time, valid_from, state, command)
+        sent = [drive.send(self.ticks, self.time, due, state, command) for drive in self._drives]
+        if all(sent) or self._last_sent is None:
+            self._last_sent = command
+        else:
+            self.timing.add_difference(command, self._last_sent)
 
     def _tick_timing(self, elapsed: float, lateness: float, cost: float) -> TickTiming:
         age, state = self._controller.reading.age, self._controller.state.number
         age = age if isfinite(age) else -1.0  # there was no sample yet
-        return TickTiming(self.time, elapsed, lateness, cost, age, self.timing.missed, state)
+        timing = self.timing
+        behind = timing.wheel_difference, timing.stage_difference
+        return TickTiming(self.time, elapsed, lateness, cost, age, timing.missed, state, *behind)
 
     def _report_changes(self) -> None:
         """Report the changes of state since the last tick, before the first tick of a new state."""

@@ -4,6 +4,7 @@ import time
 from collections.abc import Callable, Sequence
 from contextlib import closing
 from dataclasses import asdict, dataclass
+from math import degrees, radians
 from pathlib import Path
 
 from ..errors import InputError
@@ -14,13 +15,17 @@ from ..telemetry import LiveWriter, OperatorButtons, Ring, live_ring
 from .clock import MonotonicClock
 from .control import Guard, LiveController, OperatorInputs, PlatformController, RunOutcome
 from .input import Source, no_vehicle
-from .loop import Drives, Loop
+from .loop import LEAD, Drives, Loop
 from .open_source import open_source
 from .output import Recorded, RecorderProcess
 from .realtime import RealtimeScheduling, collections, realtime_scheduling
+from .timing import LoopTiming
 
 RATES = (100.0, 1000.0)  # Hz, lowest and highest of the loop
 DEFAULT_RATE = 500.0  # Hz
+LEADS = (0.002, 0.08)  # s, shortest and longest of the set points
+# rad and m that what was sent may be behind what was commanded
+_MOST_BEHIND = (radians(0.1), 1e-3)
 RING_SECONDS = 10.0  # that the recorder may be held up without a loss
 # ticks; the figures of a longer run are left to review (20 minutes at 500 Hz, some 400 MB)
 MOST_EVALUATED = 600_000
@@ -32,7 +37,8 @@ _UNRECORDED = ("recording_failed", "recorder_died")
 class LiveOptions:
     """How to run.
 
-    rate: of the loop, Hz.
+    rate: of the loop, Hz; a tick takes whole nanoseconds.
+    lead: of the set points, s; so much lateness is borne, less a millisecond.
     duration: until the platform parks, s.
     attended: the operator's buttons can be pressed, and the run waits for them.
     engage: engage at the start.
@@ -46,6 +52,7 @@ class LiveOptions:
     engage: bool = True
     priority: bool = False
     announce: bool = False
+    lead: float = LEAD
 
 
 class LiveSession:
@@ -67,10 +74,15 @@ class LiveSession:
             raise InputError(
                 f"--rate {options.rate:g} Hz, allowed: {RATES[0]:g} <= rate <= {RATES[1]:g}"
             )
+        if not LEADS[0] <= options.lead <= LEADS[1]:
+            shortest, longest = (1e3 * lead for lead in LEADS)
+            raise InputError(
+                f"--lead {1e3 * options.lead:g} ms, allowed: {shortest:g} <= lead <= {longest:g}"
+            )
         self._scenario = scenario
         self._log = Path(log)
         self._options = options
-        self._dt = 1.0 / options.rate
+        self._dt = round(1e9 / options.rate) / 1e9
         self._pipeline = build_pipeline(scenario, self._dt)
         self._source: Source = open_source(scenario)
         self.ring: Ring = live_ring(RING_SECONDS, options.rate)
@@ -92,7 +104,10 @@ class LiveSession:
             recorder = RecorderProcess(self.ring, self._recorder(), announce=self._options.announce)
             controller = self._controller(stop_requests)
             writer = LiveWriter(self.ring)
-            loop = Loop(self._dt, self._clock, controller, [writer], drives, self._origin)
+            loop = Loop(
+                *(self._dt, self._clock, controller, [writer], drives, self._origin),
+                lead=self._options.lead,
+            )
             try:
                 realtime = self._run_loop(loop)
             finally:
@@ -138,12 +153,15 @@ class LiveSession:
     ) -> RunResult:
         unrecorded = outcome.result == "ok" and recorded.result in _UNRECORDED
         ended = recorded if unrecorded else outcome
+        result, reason = ended.result, ended.reason
+        if result == "ok":
+            result, reason = _unsent(loop.timing)
         figures = LiveFigures(
             outcome.faults, outcome.dropped, recorded.lost, loop.timing.to_json(), asdict(realtime)
         )
         return RunResult(
-            ended.result,
-            ended.reason,
+            result,
+            reason,
             self._log,
             loop.ticks,
             loop.time,
@@ -162,3 +180,14 @@ class LiveSession:
         if ticks > MOST_EVALUATED or not self._log.exists():
             return Evaluation()
         return evaluate_log(self._log, self._scenario.platform)
+
+
+def _unsent(timing: LoopTiming) -> tuple[str, str]:
+    """Return result and reason of a run that has kept all else: did the set points go out?"""
+    wheels, stage = timing.wheel_difference, timing.stage_difference
+    if wheels <= _MOST_BEHIND[0] and stage <= _MOST_BEHIND[1]:
+        return "ok", ""
+    return "setpoints_unsent", (
+        f"the wheels were commanded {degrees(wheels):.2f} deg and the stage {1e3 * stage:.2f} mm"
+        " beyond the last set point that could be sent, allowed: 0.1 deg and 1 mm"
+    )

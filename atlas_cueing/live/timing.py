@@ -2,6 +2,10 @@
 
 from array import array
 from collections.abc import Sequence
+from math import degrees
+from typing import Protocol
+
+from ..rotation import Vec3
 
 # of a microsecond each; what is longer counts as 0.1 s, and the maximum is kept apart
 _BINS = 100_000
@@ -39,14 +43,28 @@ class Histogram:
         return self._counts
 
 
+class Placed(Protocol):
+    """A command's places."""
+
+    @property
+    def wheel_angle(self) -> Vec3:
+        """Angle of each wheel, rad."""
+
+    @property
+    def p_WS_W(self) -> Vec3:
+        """Position of the stage, m."""
+
+
 class LoopTiming:
     """All figures of the timing of a run.
 
     lateness: from a tick's deadline to its beginning.
     cost: from a tick's beginning until its set point has been sent.
-    missed: deadlines that were left out.
-    longest_row: most deadlines missed one after the other.
+    missed: slots that began only when the next one should have.
+    longest_row: most of them one after the other.
     collections: garbage collections while the loop ran.
+    wheel_difference, stage_difference: largest difference between a commanded wheel angle (rad) or
+        position of the stage (m) and the last that was sent.
     """
 
     def __init__(self) -> None:
@@ -55,12 +73,22 @@ class LoopTiming:
         self.missed = 0
         self.longest_row = 0
         self.collections = 0
+        self.wheel_difference = self.stage_difference = 0.0
+
+    def add_difference(self, commanded: "Placed", sent: "Placed") -> None:
+        """Count a command that was not sent, and the last one that was."""
+        wheels = _difference(commanded.wheel_angle, sent.wheel_angle)
+        self.wheel_difference = max(self.wheel_difference, wheels)
+        stage = _difference(commanded.p_WS_W, sent.p_WS_W)
+        self.stage_difference = max(self.stage_difference, stage)
 
     def to_json(self) -> dict[str, float]:
         """Return the figures by name, the unit in the name: `timing` of the command's --json."""
         figures: dict[str, float] = {"ticks": self.lateness.count, "missed_deadlines": self.missed}
         figures["most_missed_in_a_row"] = self.longest_row
         figures["garbage_collections"] = self.collections
+        figures["wheel_difference_deg"] = degrees(self.wheel_difference)
+        figures["stage_difference_mm"] = 1e3 * self.stage_difference
         for name, histogram in (("lateness", self.lateness), ("tick_cost", self.cost)):
             figures |= {
                 f"{name}_{label}_us": round(1e6 * histogram.percentile(share))
@@ -68,3 +96,7 @@ class LoopTiming:
             }
             figures[f"{name}_max_us"] = round(1e6 * histogram.maximum, 1)
         return figures
+
+
+def _difference(one: Vec3, other: Vec3) -> float:
+    return max(abs(a - b) for a, b in zip(one, other, strict=True))

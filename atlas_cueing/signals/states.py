@@ -138,7 +138,7 @@ class Tick:
 
 @dataclass(slots=True, init=False)
 class Timing:
-    """How one tick of the real-time loop went; all in s but the last two.
+    """How one tick of the real-time loop went; all in s but the last four.
 
     time: as in the other parts of the tick.
     elapsed: real time from the start of the loop to the tick's deadline.
@@ -147,6 +147,8 @@ class Timing:
     input_age: of the newest good sample of the vehicle.
     missed: deadlines missed up to now.
     state: place in `topics.LIVE_STATES`.
+    wheel_difference, stage_difference: largest difference up to now between a commanded wheel angle
+        (rad) or position of the stage (m) and the last that was sent.
     """
 
     time: Final[float]
@@ -156,6 +158,8 @@ class Timing:
     input_age: Final[float]
     missed: Final[float]
     state: Final[float]
+    wheel_difference: Final[float]
+    stage_difference: Final[float]
 
     def __init__(
         self,
@@ -166,6 +170,8 @@ class Timing:
         input_age: float,
         missed: float,
         state: float,
+        wheel_difference: float = 0.0,
+        stage_difference: float = 0.0,
     ) -> None:
         self.time = time
         self.elapsed = elapsed
@@ -174,3 +180,5 @@ class Timing:
         self.input_age = input_age
         self.missed = missed
         self.state = state
+        self.wheel_difference = wheel_difference
+        self.stage_difference = stage_difference

@@ -55,7 +55,18 @@ LIVE_STATES = ("parked", "engaging", "running", "holding", "parking", "fault_sto
 TIMING = Topic(
     "/timing",
     "atlas.Timing",
-    ("time_s", "elapsed_s", "lateness_s", "cost_s", "input_age_s", "missed_deadlines", "state"),
+    (
+        *(
+            "time_s",
+            "elapsed_s",
+            "lateness_s",
+            "cost_s",
+            "input_age_s",
+            "missed_deadlines",
+            "state",
+        ),
+        *("wheel_difference_rad", "stage_difference_m"),
+    ),
 )
 """Live runs only, once a tick: the numbers of `states.Timing`."""
 
@@ -99,4 +110,7 @@ def tick_row(tick: Tick) -> tuple[float, ...]:
 def live_row(tick: Tick, timing: Timing) -> tuple[float, ...]:
     """All numbers of a tick of a live run in the order of LIVE_TOPICS, without /felt."""
     t = timing
-    return (*tick_row(tick), t.time, t.elapsed, t.lateness, t.cost, t.input_age, t.missed, t.state)
+    return (
+        *(*tick_row(tick), t.time, t.elapsed, t.lateness, t.cost, t.input_age, t.missed, t.state),
+        *(t.wheel_difference, t.stage_difference),
+    )

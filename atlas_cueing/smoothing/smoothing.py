@@ -6,7 +6,7 @@ from math import inf, sqrt
 from typing import Final
 
 from ..errors import PlanningError
-from ..rotation import Mat3, norm
+from ..rotation import Mat3, Vec3, norm
 from ..signals import Cue, Motion, StageLimits, WheelLimits
 from .sphere import SphereSmoothing
 from .stage import StageSmoothing
@@ -50,6 +50,13 @@ class Smoothing:
         self._ticks += 1
         sphere_met, stage_met = self._turn(cue), self._stage.step(cue)
         return self._motion(self._start + self._ticks * self._dt, sphere_met, stage_met)
+
+    def wheel_motion(self) -> tuple[Vec3, Vec3, Vec3]:
+        """Give the wheels' angle, speed and acceleration (rad, s) of the last motion.
+
+        The angles are exact sums of the wheels' own displacements, from zero at the start.
+        """
+        return self._sphere.wheel_motion
 
     def _begin(self, cue: Cue) -> Motion:
         if not _is_orientation(cue):

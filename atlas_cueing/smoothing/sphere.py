@@ -63,6 +63,12 @@ class SphereSmoothing:
         self._speed, self._acceleration = ZERO, ZERO
         self._left, self._cue_speed = IDENTITY, ZERO
         self.q_WS, self.w_WS_W, self.alpha_WS_W = IDENTITY, ZERO, ZERO
+        self._angle = ZERO
+
+    @property
+    def wheel_motion(self) -> tuple[Vec3, Vec3, Vec3]:
+        """Angle (rad, from zero at the start), speed (rad/s), acceleration (rad/s^2) of wheels."""
+        return self._angle, self._speed, self._acceleration
 
     def start(self, cue: Cue) -> None:
         """Begin at rest in the cue's orientation."""
@@ -154,7 +160,9 @@ class SphereSmoothing:
 
         This is the one place where the orientation is renormalised.
         """
-        turn = apply(self._sphere_from_wheels, (x.displacement, y.displacement, z.displacement))
+        turned = (x.displacement, y.displacement, z.displacement)
+        self._angle = add(self._angle, turned)
+        turn = apply(self._sphere_from_wheels, turned)
         self._speed, self._acceleration = (x.v, y.v, z.v), (x.a, y.a, z.a)
         w0, self.w_WS_W = self.w_WS_W, apply(self._sphere_from_wheels, self._speed)
         self.alpha_WS_W = apply(self._sphere_from_wheels, self._acceleration)

@@ -41,7 +41,7 @@ def test_a_batch_for_people(sweep: Command, tmp_path: Path) -> None:
     )
     lines = ended.out.splitlines()
     assert re.match(
-        r"run +result +cueing.method +cueing.force_gain +force rms m/s2 +direction rms deg",
+        r"run +result +cueing.method +cueing.force_gain +force rms m/s2 +mismatch JND",
         lines[0],
     )
     assert [

@@ -18,6 +18,7 @@ from atlas_cueing.cueing import (
     ClassicalParameters,
     Cueing,
     ForceParameters,
+    PerceptualParameters,
     PlanParameters,
     RotationParameters,
     SlowTurnParameters,
@@ -113,7 +114,11 @@ def turned_away(method: RotationParameters, dt: float, push: float = 1.0) -> flo
     return worst
 
 
-@pytest.mark.parametrize("method", [*FOUR[:3], ClassicalParameters(tilt_gain=ZERO)], ids=name)
+@pytest.mark.parametrize(
+    "method",
+    [*FOUR[:3], PerceptualParameters(), ClassicalParameters(tilt_gain=ZERO)],
+    ids=name,
+)
 def test_the_orientation_is_the_integral_of_the_rate_to_second_order(
     method: RotationParameters,
 ) -> None:

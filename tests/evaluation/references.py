@@ -77,6 +77,26 @@ def cost(flight: RunColumns) -> Figures:
     return {"cost": float(np.hypot(force, rate)), "cost_force": force, "cost_rate": rate}
 
 
+def mismatch(flight: RunColumns) -> Figures:
+    f, g = flight.vehicle_f_B, flight.felt_f
+    dt = float(np.mean(np.diff(flight.time)))
+    theta = np.arctan2(norm(np.cross(f, g)), np.sum(f * g, axis=1))
+    w = [[sensed(CANALS, x, dt) for x in side.T] for side in (flight.felt_w, flight.vehicle_w_B)]
+    squares = {
+        "magnitude": (norm(g) - norm(f)) ** 2 / FORCE_UNIT**2,
+        "direction": 4.0 * norm(f) * norm(g) * np.sin(theta / 2.0) ** 2 / FORCE_UNIT**2,
+        "rate": np.sum((np.array(w[0]) - np.array(w[1])) ** 2, axis=0) / RATE_UNIT**2,
+    }
+    square = norm(g - f) ** 2 / FORCE_UNIT**2 + squares["rate"]
+    ticks = min(round(10.0 / dt), len(square))
+    windows = np.mean(np.lib.stride_tricks.sliding_window_view(square, ticks), axis=1)
+    return {
+        "mismatch": float(np.sqrt(np.mean(square))),
+        **{f"mismatch_{leg}": float(np.sqrt(np.mean(part))) for leg, part in squares.items()},
+        "mismatch_worst_10s": float(np.sqrt(np.max(windows))),
+    }
+
+
 def extra_rate(flight: RunColumns) -> Figures:
     rate = norm(flight.felt_w - flight.vehicle_w_B)[flight.limited[:, 0] == 0.0]
     return {
@@ -211,7 +231,7 @@ def duration(flight: RunColumns) -> Figures:
 
 def metrics(flight: RunColumns) -> Figures:
     parts: tuple[Callable[[RunColumns], Figures], ...] = (
-        *(deviation, cost, extra_rate),
+        *(mismatch, deviation, cost, extra_rate),
         *(likeness, turning, effort, duration),
     )
     return {name: value for part in parts for name, value in part(flight).items()}
@@ -276,8 +296,8 @@ def consistency(flight: RunColumns, sphere_from_wheels: np.ndarray) -> Figures:
     acceleration = np.linalg.solve(sphere_from_wheels, flight.motion_alpha_W.T).T
     drift = reintegrate(flight, sphere_from_wheels) * rotations(flight.motion_q_WS).inv()
     return {
-        "wheel_speed_mismatch_max_rad_s": float(np.max(np.abs(flight.wheel_speed - speed))),
-        "wheel_acceleration_mismatch_max_rad_s2": float(
+        "wheel_speed_residual_max_rad_s": float(np.max(np.abs(flight.wheel_speed - speed))),
+        "wheel_acceleration_residual_max_rad_s2": float(
             np.max(np.abs(flight.wheel_acceleration - acceleration))
         ),
         "orientation_drift_final_rad": float(drift.magnitude()[-1]),

@@ -42,6 +42,7 @@ def test_very_short_flights_have_figures_too(count: int) -> None:
 def test_the_most_important_come_first() -> None:
     names = list(gathered(Metrics(), still(3)))
     for first, then in [
+        ("mismatch", "force_rms_m_s2"),
         ("force_rms_m_s2", "direction_rms_rad"),
         ("direction_max_rad", "rate_rms_rad_s"),
         ("rate_max_rad_s", "attitude_rms_rad"),

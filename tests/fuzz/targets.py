@@ -247,7 +247,7 @@ _LOGS = st.one_of(
         st.just(_FELT), st.just(_STATUS), spoilt([_MESSAGES], (b"\x05", b"\x09", b"\x11"))
     ).map(_crafted),
 )
-_POINT = setpoint.encode(1, 2, 3.0, 4.0, 2, Command(3.0, ZERO, ZERO, ZERO, ZERO, ZERO))
+_POINT = setpoint.encode(1, 2, 3.0, 4, 2, Command(3.0, ZERO, ZERO, ZERO, ZERO, ZERO, ZERO))
 
 
 def _with_check(packet: bytes) -> bytes:

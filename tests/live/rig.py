@@ -14,9 +14,10 @@ from atlas_cueing.live.control.command import Command
 from atlas_cueing.live.control.controller import LiveController, OperatorInputs
 from atlas_cueing.live.control.guard import Guard
 from atlas_cueing.live.control.platform_controller import PlatformController
+from atlas_cueing.live.control.slot import Slot
 from atlas_cueing.live.control.state_machine import State
 from atlas_cueing.live.input.source import SourceReading
-from atlas_cueing.live.loop import Loop
+from atlas_cueing.live.loop import LEAD, Drives, Loop
 from atlas_cueing.pipeline import Pipeline
 from atlas_cueing.rotation import (
     IDENTITY,
@@ -136,7 +137,7 @@ class Tape:
     timings: list[Timing] = field(default_factory=list)
     statuses: list[tuple[float, str, str]] = field(default_factory=list)
     commands: list[Command] = field(default_factory=list)
-    sent: list[tuple[int, float, float, int]] = field(default_factory=list)
+    sent: list[tuple[int, float, int, int]] = field(default_factory=list)
     order: list[str] = field(default_factory=list)
 
     def tick(self, tick: Tick, timing: Timing) -> None:
@@ -148,11 +149,10 @@ class Tape:
         self.statuses.append((time, state, reason))
         self.order.append(state)
 
-    def send(
-        self, sequence: int, time: float, valid_from: float, state: int, command: Command
-    ) -> None:
+    def send(self, sequence: int, time: float, due: int, state: int, command: Command) -> bool:
         self.commands.append(command)
-        self.sent.append((sequence, time, valid_from, state))
+        self.sent.append((sequence, time, due, state))
+        return True
 
 
 @dataclass
@@ -179,6 +179,8 @@ class Rig:
         attended: bool = True,
         duration: float = inf,
         rate: float = 0.6,
+        lead: float = LEAD,
+        drives: Sequence[Drives] = (),
     ) -> None:
         self.dt, self.scenario = dt, scenario(platform, *settings)
         limits = self.scenario.platform
@@ -200,7 +202,8 @@ class Rig:
             self.wanted.edges, lambda: self.wanted.signals, duration, attended
         )
         self.controller = LiveController(self.platform, self.guard, self.source, operator)
-        self.loop = Loop(dt, self.clock, self.controller, [self.tape], [self.tape])
+        outputs, sinks = [self.tape], [self.tape, *drives]
+        self.loop = Loop(dt, self.clock, self.controller, outputs, sinks, lead=lead)
         self.start = self.clock.now() + dt
         self.slot = 0
 
@@ -215,11 +218,12 @@ class Rig:
     def motion(self) -> Motion:
         return self.platform.motion
 
-    def tick(self, lateness: float = 0.0, missed_in_a_row: int = 0) -> Command:
+    def tick(self, lateness: float = 0.0) -> Command:
         """One tick without the loop; keeps what comes of it."""
         self.slot += 1
         elapsed = self.slot * self.dt
-        tick, command = self.controller.tick(elapsed, elapsed, lateness, missed_in_a_row)
+        slot = Slot(lambda: lateness, elapsed, LEAD)
+        tick, command = self.controller.tick(slot)
         self.tape.tick(tick, Timing(elapsed, elapsed, lateness, 0.0, 0.0, 0.0, self.state.number))
         self.tape.commands.append(command)
         for state, reason in self.controller.take_changes():

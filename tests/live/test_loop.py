@@ -1,10 +1,9 @@
 """The schedule against a clock under control.
 
-Absolute, missed deadlines counted and left out, everything in order.
+Absolute, missed slots made up, everything in order.
 """
 
 from collections.abc import Callable
-from itertools import pairwise
 
 import pytest
 
@@ -14,8 +13,6 @@ from atlas_cueing.live.loop import LEAD
 from .rig import Rig
 
 DT = 0.01
-
-REMEDY = "what helps: --priority, a lower --rate, fewer programs beside it"
 
 
 def run(delays: dict[int, float], ticks: int = 60, costs: dict[int, float] | None = None) -> Rig:
@@ -68,46 +65,33 @@ def test_the_schedule_is_absolute() -> None:
     assert rig.loop.timing.lateness.maximum == pytest.approx(0.005)
 
 
-def test_missed_deadlines_are_counted_and_left_out() -> None:
-    """1.5 periods late at one tick: the deadline between has no tick; platform time stays even."""
+def test_missed_slots_are_made_up_in_order() -> None:
+    """1.5 periods late at one tick: the next one begins at once, and all have their own time."""
     rig = run({20: 0.015})
     timings = rig.tape.timings
-    assert timings[19].lateness == pytest.approx(0.015)
+    assert [t.lateness for t in timings[18:22]] == pytest.approx([0.0, 0.015, 0.005, 0.0], abs=1e-9)
     assert [t.missed for t in timings] == [0] * 19 + [1] * 41
-    steps = [round((after.elapsed - before.elapsed) / DT) for before, after in pairwise(timings)]
-    assert steps == [1] * 19 + [2] + [1] * 39
+    assert [t.elapsed for t in timings] == pytest.approx([k * DT for k in range(60)], abs=1e-9)
     assert [t.time for t in timings] == [(k + 1) * DT for k in range(60)]
     assert rig.controller.outcome.faults == 0
 
 
-def test_a_tick_that_takes_too_long_is_not_made_up_for() -> None:
+def test_what_a_tick_costs_makes_the_next_ones_late() -> None:
     rig = run({}, costs={20: 0.025})
     timings = rig.tape.timings
     assert timings[19].cost == pytest.approx(0.025)
     assert rig.loop.timing.cost.maximum == pytest.approx(0.025)
     assert timings[20].lateness == pytest.approx(0.015)
     assert [t.missed for t in timings][19:23] == [0, 1, 1, 1]
-    assert timings[-1].elapsed == pytest.approx(60 * DT, abs=1e-9)
+    assert timings[-1].elapsed == pytest.approx(59 * DT, abs=1e-9)
 
 
-def test_more_than_20_ms_late_is_a_fault() -> None:
-    rig = run({20: 0.0199, 40: 0.0201})
-    assert rig.controller.outcome.result == "fault"
-    (time, _, reason), *_ = [
-        status for status in rig.tape.statuses if status[1] == "fault_stopping"
-    ]
-    assert time == pytest.approx(40 * DT)
-    assert reason == f"a tick began 20.1 ms late, allowed: at most 20 ms; {REMEDY}"
-
-
-def test_five_missed_in_a_row_are_borne_and_six_are_not() -> None:
-    """One deadline missed in each of five ticks, then a punctual one; and then six."""
-    late = dict.fromkeys(range(10, 15), 0.012) | dict.fromkeys(range(30, 36), 0.012)
-    rig = run(late)
-    assert rig.loop.timing.longest_row == 6
-    (fault,) = [status for status in rig.tape.statuses if status[1] == "fault_stopping"]
-    assert fault[0] == pytest.approx(35 * DT)
-    assert fault[2] == f"6 deadlines missed in a row, allowed: at most 5; {REMEDY}"
+def test_lost_slots_while_parked_are_no_fault() -> None:
+    rig = run({20: 0.3})
+    assert rig.loop.timing.longest_row in (29, 30)
+    assert rig.controller.outcome.faults == 0
+    assert len(rig.tape.commands) == 60
+    assert len({command.p_WS_W + command.wheel_angle for command in rig.tape.commands}) == 1
 
 
 def test_states_are_reported_before_their_first_tick() -> None:
@@ -155,9 +139,9 @@ def test_drives_hear_every_tick_ahead_of_time() -> None:
     rig = run({20: 0.015})
     timings = rig.tape.timings
     assert [sequence for sequence, *_ in rig.tape.sent] == list(range(1, 61))
-    for (_, time, valid_from, state), timing in zip(rig.tape.sent, timings, strict=True):
+    for k, ((_, time, due, state), timing) in enumerate(zip(rig.tape.sent, timings, strict=True)):
         assert time == timing.time
-        assert valid_from == pytest.approx(rig.start + timing.elapsed + LEAD)
+        assert due == round(1e9 * (rig.start - DT)) + (k + 2) * 10_000_000 + round(1e9 * LEAD)
         assert state == timing.state
     assert [command.time for command in rig.tape.commands] == [timing.time for timing in timings]
 

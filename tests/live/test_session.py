@@ -32,13 +32,12 @@ class Counting:
     """Drives that keep what they hear."""
 
     def __init__(self) -> None:
-        self.heard: list[tuple[int, float, int]] = []
+        self.heard: list[tuple[int, int, int]] = []
 
-    def send(
-        self, sequence: int, time: float, valid_from: float, state: int, command: Command
-    ) -> None:
+    def send(self, sequence: int, time: float, due: int, state: int, command: Command) -> bool:
         assert command.time == time
-        self.heard.append((sequence, valid_from, state))
+        self.heard.append((sequence, due, state))
+        return True
 
 
 def fly(path: Path, options: LiveOptions = OPTIONS, drives: tuple[Counting, ...] = ()) -> RunResult:
@@ -92,11 +91,12 @@ class Operator(Counting):
         super().__init__()
         self._thread = Thread(target=press)
 
-    def send(self, *message: Any) -> None:
+    def send(self, *message: Any) -> bool:
         super().send(*message)
         if len(self.heard) == 10:
             self._thread.start()
             self._thread.join()
+        return True
 
 
 def test_buttons_are_heard(tmp_path: Path) -> None:

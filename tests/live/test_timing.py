@@ -1,9 +1,14 @@
 """Percentiles to the microsecond, against numpy's."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from atlas_cueing.live.session import _unsent
 from atlas_cueing.live.timing import Histogram, LoopTiming
+
+from .commands import REST
 
 
 def test_percentiles_are_those_of_the_durations() -> None:
@@ -46,4 +51,15 @@ def test_figures_have_their_units_in_their_names() -> None:
     assert figures["lateness_max_us"] == pytest.approx(400.0)
     assert figures["tick_cost_max_us"] == pytest.approx(800.0)
     assert figures["lateness_p50_us"] == pytest.approx(20.5, abs=0.6)
-    assert len(figures) == 12
+    assert len(figures) == 14
+
+
+def test_what_was_commanded_beyond_the_last_one_sent_is_a_finding() -> None:
+    timing = LoopTiming()
+    timing.add_difference(replace(REST, wheel_angle=(0.0, -1.7e-3, 0.0)), REST)
+    timing.add_difference(replace(REST, p_WS_W=(0.0, 0.0, 9e-4)), REST)
+    assert _unsent(timing) == ("ok", "")
+    timing.add_difference(replace(REST, wheel_angle=(0.0, 0.0, 1.8e-3)), REST)
+    assert _unsent(timing)[0] == "setpoints_unsent"
+    assert timing.to_json()["wheel_difference_deg"] == pytest.approx(0.1031, abs=1e-4)
+    assert timing.to_json()["stage_difference_mm"] == pytest.approx(0.9)

@@ -55,8 +55,8 @@ def test_the_wheels_of_another_platform_do_not_fit(load: Load, tmp_path: Path) -
         evaluate_log(log, load_platform(name)).metrics
         for name in ("atlas-2.9m", "atlas-orthogonal")
     )
-    assert right["wheel_speed_mismatch_max_rad_s"] < 1e-12
-    assert wrong["wheel_speed_mismatch_max_rad_s"] > 0.01
+    assert right["wheel_speed_residual_max_rad_s"] < 1e-12
+    assert wrong["wheel_speed_residual_max_rad_s"] > 0.01
     assert wrong["orientation_drift_max_rad"] > 10.0 * right["orientation_drift_max_rad"]
 
 
@@ -172,7 +172,7 @@ def test_a_live_log_is_judged_where_it_was_running(load: Load, tmp_path: Path) -
     recorder.close("ok", "")
     found = evaluate_log(log, scenario.platform)
     assert (found.metrics["ticks"], found.metrics["wheel_speed_max_rad_s"]) == (8000.0, 0.5)
-    assert found.metrics["wheel_speed_mismatch_max_rad_s"] == 7.0
+    assert found.metrics["wheel_speed_residual_max_rad_s"] == 7.0
     assert (
         found.limit_use["wheel_speed_logged"]
         == 7.0 / scenario.platform.wheel_limit_values().speed[0]

@@ -53,6 +53,8 @@ def test_degrees_read_well() -> None:
         "attitude.return_rate_deg_s": 3.0,
         "blend.align_rate_deg_s": 3.0,
         "force.align_rate_deg_s": 180.0,
+        "perceptual.felt_rate_deg_s": 5.0,
+        "perceptual.extra_rate_deg_s": 180.0,
         "classical.tilt_rate_deg_s": 3.0,
         "classical.angle_limit_deg": 25.0,
         "preview.align_rate_deg_s": 3.0,

@@ -178,7 +178,11 @@ def _guard(
     """A guard that lets all of them through, or the time is that of something else."""
     platform = scenario.platform
     guard = Guard(dt, platform.wheel_limit_values(), platform.stage_limit_values())
-    commands = [command_of(tick) for tick in ticks]
+    smoothing = build_pipeline(scenario, dt).smoothing
+    commands = []
+    for tick in ticks:
+        smoothing.step(tick.cue)
+        commands.append(command_of(tick, smoothing.wheel_motion()[0]))
     guard.start(commands[0])
     for command in commands[1:]:
         guard.check(command)

@@ -2,6 +2,7 @@
 
 # mypyc: runs every tick
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ...rotation import ZERO, Vec3
@@ -13,7 +14,9 @@ class Command:
     """Motion that the drives shall have at `time` (s).
 
     Each wheel has a speed (rad/s) and an acceleration (rad/s^2). The stage's position (m), velocity
-    (m/s) and acceleration (m/s^2) are those of the sphere's centre in W.
+    (m/s) and acceleration (m/s^2) are those of the sphere's centre in W. The angles of the
+    wheels (rad) go on for ever, from zero at the start of the run: speed and acceleration are their
+    derivatives.
     """
 
     time: float
@@ -22,14 +25,40 @@ class Command:
     p_WS_W: Vec3
     v_WS_W: Vec3
     a_WS_W: Vec3
+    wheel_angle: Vec3
 
 
-def command_of(tick: Tick) -> Command:
-    """Return the command that carries out the motion of a tick."""
+def command_of(tick: Tick, wheel_angle: Vec3) -> Command:
+    """Return the command that carries out the motion of a tick, with the wheels' angles (rad)."""
     m, wheels = tick.motion, tick.wheels
-    return Command(m.time, wheels.speed, wheels.acceleration, m.p_WS_W, m.v_WS_W, m.a_WS_W)
+    return Command(
+        m.time, wheels.speed, wheels.acceleration, m.p_WS_W, m.v_WS_W, m.a_WS_W, wheel_angle
+    )
 
 
-def standstill(motion: Motion) -> Command:
-    """Return the command to stand still at the position of `motion`."""
-    return Command(motion.time, ZERO, ZERO, motion.p_WS_W, ZERO, ZERO)
+def standstill(motion: Motion, wheel_angle: Vec3) -> Command:
+    """Return the command to stand still at the position of `motion` and these angles (rad)."""
+    return Command(motion.time, ZERO, ZERO, motion.p_WS_W, ZERO, ZERO, wheel_angle)
+
+
+def command_from(time: float, axes: Sequence[Vec3]) -> Command:
+    """Return the command of six axes, wheels 1 to 3 and the stage's x, y, z.
+
+    Each is (position, speed, acceleration) at `time` (s).
+    """
+    (q1, w1, b1), (q2, w2, b2), (q3, w3, b3), (px, vx, ax), (py, vy, ay), (pz, vz, az) = axes
+    speed, acceleration, p, v, a = (
+        (w1, w2, w3),
+        (b1, b2, b3),
+        (px, py, pz),
+        (vx, vy, vz),
+        (ax, ay, az),
+    )
+    return Command(time, speed, acceleration, p, v, a, (q1, q2, q3))
+
+
+def axes_of(command: Command) -> list[Vec3]:
+    """Return position, speed and acceleration of the six axes, as `command_from` takes them."""
+    c = command
+    wheels = zip(c.wheel_angle, c.wheel_speed, c.wheel_acceleration, strict=True)
+    return [*wheels, *zip(c.p_WS_W, c.v_WS_W, c.a_WS_W, strict=True)]

@@ -13,12 +13,12 @@ from ...rotation import (
     ZERO,
     Quat,
     Vec3,
+    add,
     apply,
     geodesic,
     integrate_base,
     norm,
     normalise,
-    scale,
     subtract,
 )
 from ...signals import Cue, Motion, Tick, VehicleState, WheelSpeeds
@@ -45,7 +45,11 @@ _PARK_CUE = Cue(0.0, IDENTITY, ZERO, ZERO, ZERO, ZERO)
 
 
 class PlatformController:
-    """Takes the platform from state to state, and makes every tick; it starts parked."""
+    """Takes the platform from state to state, and makes every tick; it starts parked.
+
+    state: the state the platform is in.
+    wheel_angle: of each wheel with the last motion, rad, from zero at the start of the run.
+    """
 
     def __init__(
         self,
@@ -72,6 +76,8 @@ class PlatformController:
         self._unused_cueing: CueSource | None = self._pipeline.cueing
         self._cue = _PARK_CUE
         self._motion = self._pipeline.smoothing.step(_PARK_CUE)
+        # rad, of the wheels: where this smoothing has begun, and with the last motion
+        self._first_angle, self.wheel_angle = ZERO, ZERO
         self._signs = SignContinuity(self._motion.q_WS)
         self._trajectory: Trajectory = HoldTrajectory(self._motion)
 
@@ -149,32 +155,37 @@ class PlatformController:
         cue = self._signs.cue(self._trajectory.step(_cue_at(self._cue, vehicle.time)))
         if not isfinite(hypot(*cue.q_WS, *cue.w_WS_W, *cue.p_WS_W, *cue.v_WS_W, *cue.a_WS_W)):
             raise PlanningError(f"a cue that is not finite: {cue}")
-        self._motion = _motion_at(self._pipeline.smoothing.step(cue), vehicle.time)
-        return Tick(vehicle, cue, self._motion, self._pipeline.wheels.speeds(self._motion))
+        smoothing = self._pipeline.smoothing
+        self._motion = _motion_at(smoothing.step(cue), vehicle.time)
+        angle, speed, acceleration = smoothing.wheel_motion()
+        self.wheel_angle = add(self._first_angle, angle)
+        return Tick(vehicle, cue, self._motion, WheelSpeeds(vehicle.time, speed, acceleration))
 
-    def guard_tick(self, before: Motion, vehicle: VehicleState, command: Command) -> Tick:
+    def standing_tick(self, before: Motion, vehicle: VehicleState) -> Tick:
+        """Return a tick that stands still at the motion before it, which is at rest."""
+        q, p, time = before.q_WS, before.p_WS_W, vehicle.time
+        cue = self._signs.cue(Cue(time, q, ZERO, p, ZERO, ZERO))
+        wheels = WheelSpeeds(time, ZERO, ZERO)
+        return Tick(self._signs.vehicle(vehicle), cue, _motion_at(before, time), wheels)
+
+    def guard_tick(
+        self, before: Motion, angle_before: Vec3, vehicle: VehicleState, command: Command
+    ) -> Tick:
         """Return the tick of a command that the guard made: the motion it gives the platform.
 
-        The turn of the sphere is J times the wheels' own, by the trapezoid less dt^2/12 of the
-        change of acceleration (Euler-Maclaurin).
+        The turn of the sphere is J times the wheels' own.
 
         Args:
             before: motion of the platform a tick ago.
+            angle_before: of the wheels, a tick ago, rad.
             vehicle: state of the vehicle, with the time of this tick.
             command: of the guard's stop.
         """
-        dt = self._dt
         w, alpha = apply(self._J, command.wheel_speed), apply(self._J, command.wheel_acceleration)
-        bend = scale(dt * dt / 12.0, subtract(alpha, before.alpha_WS_W))
-        turn = subtract(
-            scale(
-                0.5 * dt,
-                (w[0] + before.w_WS_W[0], w[1] + before.w_WS_W[1], w[2] + before.w_WS_W[2]),
-            ),
-            bend,
-        )
-        q: Quat = normalise(integrate_base(before.q_WS, turn, before.w_WS_W, w, dt))
+        turn = apply(self._J, subtract(command.wheel_angle, angle_before))
+        q: Quat = normalise(integrate_base(before.q_WS, turn, before.w_WS_W, w, self._dt))
         p, v, a = command.p_WS_W, command.v_WS_W, command.a_WS_W
+        self.wheel_angle = command.wheel_angle
         self._motion = Motion(vehicle.time, q, w, alpha, p, v, a, (1.0, 1.0))
         wheels = WheelSpeeds(vehicle.time, command.wheel_speed, command.wheel_acceleration)
         cue = self._signs.cue(Cue(vehicle.time, q, w, p, v, a))
@@ -206,6 +217,7 @@ class PlatformController:
         """After a fault: smoothing from where the guard's stop has ended, and a new cueing."""
         m = self._motion
         self._cueing, self._pipeline = None, self._new_pipeline()
+        self._first_angle = self.wheel_angle
         self._unused_cueing = self._pipeline.cueing
         self._motion = self._pipeline.smoothing.step(
             Cue(m.time, m.q_WS, ZERO, m.p_WS_W, ZERO, ZERO)

@@ -1,221 +1,247 @@
-"""The drive controller's side of the set points: a reference receiver with a watchdog.
+"""The drive controller's side of the set points: a reference receiver.
 
-The watchdog stops the platform when the set points cease. Time is the sender's CLOCK_MONOTONIC in
-s. A receiver on another machine adds the difference of the clocks, which it has to keep itself (as
-with PTP); a difference of more than AHEAD_S is refused packet by packet.
+It does what `setpoint` asks of one. Times are ns of the sender's CLOCK_MONOTONIC; a receiver on
+another machine adds the difference of the clocks, which it has to keep itself (as with PTP).
 """
 
 from collections import deque
-from math import copysign, inf
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import inf
+from typing import Protocol
 
 from ...errors import SetPointError
-from ...rotation import Vec3
-from ..control.command import Command
+from ...rotation import ZERO, Vec3
+from ...signals import StageLimits, WheelLimits
+from ..control.axis import AxisLimits
+from ..control.command import Command, axes_of, command_from
+from ..control.guard import breach_of
+from .bridge import Bridge
 from .setpoint import Address, SetPoint, check_key, decode
 
-WATCHDOG_S = 0.1  # s without a good packet, or past the newest set point's valid-from, that trip
-AHEAD_S = 0.1  # s that a valid-from may lie in the future; more is a clock that is not the sender's
-_KEPT = 256  # set points: more than AHEAD_S of them at 1 kHz
+AHEAD_S = 0.1  # s that a due time may lie in the future; more is a clock that is not the sender's
+REJOIN_S = 0.02  # s into its own stop that it may be led away from it
+SAME = 1e-6  # m, rad and their derivatives: a set point as near to the own stop lies on it
+_NO_TICK = 1e-9  # s
+
+
+class _Motion(Protocol):
+    """One axis over time."""
+
+    def at(self, t: float) -> Vec3:
+        """Return position, speed and acceleration t s after its beginning."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Piece:
+    """Motion of the six axes from `begin` to `end`, ns."""
+
+    begin: int
+    end: int
+    axes: Sequence[_Motion]
+
+    def at(self, now: int) -> list[Vec3]:
+        t = max(1e-9 * (now - self.begin), 0.0)
+        return [axis.at(t) for axis in self.axes]
+
+
+@dataclass(frozen=True, slots=True)
+class ReceiverReport:
+    """What the drives tell the loop.
+
+    state: waiting (nothing came yet), following, stopping (its own stop) or latched.
+    reason: why it stops or is latched; empty otherwise.
+    command: where the drives are; None while waiting.
+    margin: least time from a packet's arrival until it was due, since the last report, s.
+    good, refused: number of packets taken and not taken since the start.
+    """
+
+    state: str
+    reason: str
+    command: Command | None
+    margin: float
+    good: int
+    refused: int
 
 
 class SetPointReceiver:
-    """Follows the set points of one sender, and stops by itself when they cease.
-
-    Between two set points it interpolates (cubic in position and in speed, linear in acceleration).
-    After the newest one it keeps the speeds; a watchdog later it trips: every wheel and stage axis
-    slows down at its largest acceleration to zero, and nothing is followed any more until `reset`.
-    The ramp has corners, so the jerk at its ends is the drive's to limit; and until the watchdog
-    trips the stage goes on by up to speed * WATCHDOG_S, which the drives' own end stops have to
-    allow for.
+    """Follows the set points of one sender, and stops by itself when one has no successor.
 
     good, refused: number of packets taken and not taken since the start.
     """
 
     def __init__(
-        self, wheel_acceleration: Vec3, stage_acceleration: Vec3, key: bytes = b""
+        self,
+        wheel_limits: WheelLimits,
+        stage_limits: StageLimits,
+        key: bytes = b"",
+        place: Vec3 = ZERO,
     ) -> None:
         """Wait for the first set point.
 
         Args:
-            wheel_acceleration: of the stop ramp of each wheel, rad/s^2.
-            stage_acceleration: of the stop ramp of each axis of W, m/s^2.
+            wheel_limits: of the wheels, as the sender has them.
+            stage_limits: of the stage, as the sender has them.
             key: shared with the sender; empty for none.
+            place: of the stage now, m, W.
 
         Raises InputError for a bad key.
         """
         check_key(key)
-        self._wheel_acceleration = wheel_acceleration
-        self._stage_acceleration = stage_acceleration
+        wheels, stage = wheel_limits, stage_limits
+        turns = zip("123", wheels.speed, wheels.acceleration, wheels.jerk, strict=True)
+        rails = zip("xyz", stage.speed, stage.acceleration, stage.jerk, stage.travel, strict=True)
+        self._limits = [AxisLimits(f"wheel {name} ", _NO_TICK, *limit) for name, *limit in turns]
+        self._limits += [AxisLimits(f"stage {name} ", _NO_TICK, *limit) for name, *limit in rails]
         self._key = key
         self.good = self.refused = 0
-        self.reset()
+        self.reset(place)
 
-    def reset(self) -> None:
-        """Forget the sender and why it tripped; the platform has to stand."""
-        self._points: deque[SetPoint] = deque(maxlen=_KEPT)
+    def reset(self, place: Vec3 = ZERO) -> None:
+        """Forget the sender and why it stopped; the platform stands at `place` (m, W)."""
+        self._place = place
+        self._pieces: deque[_Piece] = deque()  # up to the newest set point
+        self._stop = _Piece(0, 0, ())  # from the newest set point on
         self._sender: Address | None = None
-        self._received = inf  # time of the last good packet
-        self._stop: Command | None = None  # where the stop ramp begins
-        self._reason = ""
+        self._newest: SetPoint | None = None
+        self._stopping: int | None = None  # since when, ns
+        self._latched = ""
+        self._margin = inf
 
     @property
     def tripped(self) -> str:
-        """Why it stops or has stopped; empty while it follows."""
-        return self._reason
+        """Why it stops, or has stopped and takes no set points; empty otherwise."""
+        if self._latched or self._stopping is None or self._newest is None:
+            return self._latched
+        return f"no successor of set point {self._newest.sequence} when that was due"
 
     @property
     def newest(self) -> SetPoint | None:
         """The last good set point; None before the first."""
-        return self._points[-1] if self._points else None
+        return self._newest
 
-    def take(self, packet: bytes, sender: Address, now: float) -> str:
-        """Take a packet of `sender` that came at `now` (s); return why it was refused, or ''."""
+    def report(self, now: int) -> ReceiverReport:
+        """Return the state at `now` (ns), to be sent 50 times a second and when it changes."""
+        command, reason = self.at(now), self.tripped
+        state = "latched" if self._latched else "stopping" if reason else "following"
+        margin, self._margin = self._margin, inf
+        state = state if self._newest else "waiting"
+        return ReceiverReport(state, reason, command, margin, self.good, self.refused)
+
+    def take(self, packet: bytes, sender: Address, now: int) -> str:
+        """Take a packet of `sender` that came at `now` (ns); return why it was refused, or ''."""
         self._watch(now)
         try:
             point = decode(packet, self._key)
         except SetPointError as error:
             reason = str(error)
         else:
-            reason = self._refusal(point, sender, now)
+            reason = self._stranger(point, sender, now) or self._follow(point, now)
         if reason:
             self.refused += 1
             return reason
         self.good += 1
-        self._sender, self._received = sender, now
-        self._points.append(point)
+        self._sender = sender
+        self._margin = min(self._margin, 1e-9 * (point.due - now))
         return ""
 
-    def at(self, now: float) -> Command | None:
-        """Return the motion of the drives at `now` (s), which does not decrease.
+    def at(self, now: int) -> Command | None:
+        """Return the motion of the drives at `now` (ns), which does not decrease.
 
         It is None before the first good packet: stand still.
         """
         self._watch(now)
-        if self._stop is not None:
-            return self._ramp(self._stop, now - self._stop.time)
-        return self._follow(now)
+        return None if self._newest is None else command_from(1e-9 * now, self._state(now))
 
-    def _follow(self, now: float) -> Command | None:
-        """Interpolate, or go on from the newest set point."""
-        points = self._points
-        while len(points) > 1 and points[1].valid_from <= now:
-            points.popleft()
-        if not points or now <= points[0].valid_from:
-            return _timed(points[0], points[0].valid_from) if points else None
-        if len(points) == 1:
-            return _coast(points[0], now)
-        return _between(points[0], points[1], now)
+    def _state(self, now: int) -> list[Vec3]:
+        while self._pieces and self._pieces[0].end <= now:
+            self._pieces.popleft()
+        return (self._pieces[0] if self._pieces else self._stop).at(now)
 
-    def _watch(self, now: float) -> None:
-        """Trip if the set points have ceased."""
-        if self._reason or not self._points:
-            return
-        newest = self._points[-1].valid_from
-        if now - self._received > WATCHDOG_S:
-            self._reason = (
-                f"no good set point for {now - self._received:.3f} s, allowed: {WATCHDOG_S} s"
-            )
-        elif now - newest > WATCHDOG_S:
-            self._reason = f"set points late by {now - newest:.3f} s, allowed: {WATCHDOG_S} s"
-        if self._reason:
-            self._stop = self._follow(now)
+    def _watch(self, now: int) -> None:
+        """Begin the own stop when the newest set point is due and moves."""
+        newest = self._newest
+        if newest and self._stopping is None and now > newest.due and not _stands(newest):
+            self._stopping = newest.due
 
-    def _refusal(self, point: SetPoint, sender: Address, now: float) -> str:
-        """Describe why an intact packet is not followed; empty when it is."""
-        last = self.newest
-        if self._reason:
-            return f"stopped: {self._reason}; reset first"
-        if point.valid_from > now + AHEAD_S:
-            return (
-                f"packet {point.sequence} is valid from {point.valid_from - now:.3f} s ahead,"
-                f" allowed: {AHEAD_S} s"
-            )
-        if point.valid_from < now - WATCHDOG_S:
-            return (
-                f"packet {point.sequence} was valid from {now - point.valid_from:.3f} s ago,"
-                f" allowed: {WATCHDOG_S} s"
-            )
+    def _stranger(self, point: SetPoint, sender: Address, now: int) -> str:
+        """Describe why an intact packet is none of its sender's next ones; empty when it is."""
+        last, ahead = self._newest, 1e-9 * (point.due - now)
+        if self._latched:
+            return f"stopped: {self._latched}; reset first"
+        if ahead > AHEAD_S:
+            return f"packet {point.sequence} is due {ahead:.3f} s ahead, allowed: {AHEAD_S} s"
         if last is None:
             return ""
-        if sender != self._sender or point.session != last.session:
+        if (sender, point.session) != (self._sender, last.session):
             return (
-                f"packet {point.sequence} is from another sender, {sender[0]}:{sender[1]}, or"
-                " session than the first one"
+                f"packet {point.sequence} is from another sender, {sender[0]}:{sender[1]}, session"
+                f" {point.session}"
             )
         if point.sequence <= last.sequence:
             return (
                 f"packet {point.sequence} comes after {last.sequence}: out of order or sent again"
             )
-        if point.valid_from <= last.valid_from:
-            return f"packet {point.sequence} is not valid from later than the one before"
+        if point.due <= last.due:
+            return f"packet {point.sequence} is not due later than the one before"
         return ""
 
-    def _ramp(self, start: Command, t: float) -> Command:
-        """Return the command t s into the stop."""
-        wheels = [
-            _brake(0.0, v, a, t)
-            for v, a in zip(start.wheel_speed, self._wheel_acceleration, strict=True)
+    def _follow(self, point: SetPoint, now: int) -> str:
+        """Take a set point into the motion; describe why it cannot be, or return ''."""
+        last = self._newest
+        if last is None:
+            off = max(abs(a - b) for a, b in zip(point.command.p_WS_W, self._place, strict=True))
+            if not _stands(point) or off > SAME:
+                return (
+                    f"packet {point.sequence} is the first and does not stand where the drives do"
+                )
+            self._go_on(point)
+            return ""
+        if _same(self._stop.at(point.due), axes_of(point.command)):
+            if point.due > now:
+                self._pieces.append(_Piece(last.due, point.due, self._stop.axes))
+                self._stopping = None
+            self._go_on(point)
+            return ""
+        if now <= last.due:
+            return self._lead(point, last.due, axes_of(last.command))
+        if self._stopping is not None and now - self._stopping > 1e9 * REJOIN_S:
+            self._latched = f"{self.tripped}, and packet {point.sequence} is not on its way to rest"
+            return self._latched
+        if point.due <= now:
+            return f"packet {point.sequence} came {1e-9 * (now - point.due):.4f} s after it was due"
+        return self._lead(point, now, self._state(now))
+
+    def _lead(self, point: SetPoint, begin: int, start: Sequence[Vec3]) -> str:
+        """Lead from a state at `begin` (ns) to the set point, if that can be reached."""
+        h, end = 1e-9 * (point.due - begin), axes_of(point.command)
+        checks = []
+        for limits, (p0, v0, a0), (p, v, a) in zip(self._limits, start, end, strict=True):
+            checks.append((limits.name, limits.checks(h, v0, a0, v, a)))
+            checks.append((limits.name, limits.place_checks(h, p0, v0, a0, p, v, a)))
+        if breach := breach_of(checks):
+            return f"packet {point.sequence} cannot be reached: {breach}"
+        axes = [
+            Bridge(limits, h, one, other)
+            for limits, one, other in zip(self._limits, start, end, strict=True)
         ]
-        rails = [
-            _brake(p, v, a, t)
-            for p, v, a in zip(start.p_WS_W, start.v_WS_W, self._stage_acceleration, strict=True)
-        ]
-        (_, w1, b1), (_, w2, b2), (_, w3, b3), (px, vx, ax), (py, vy, ay), (pz, vz, az) = (
-            wheels + rails
-        )
-        return Command(
-            start.time + t, (w1, w2, w3), (b1, b2, b3), (px, py, pz), (vx, vy, vz), (ax, ay, az)
-        )
+        self._pieces.append(_Piece(begin, point.due, axes))
+        self._stopping = None
+        self._go_on(point)
+        return ""
+
+    def _go_on(self, point: SetPoint) -> None:
+        """Make the set point the newest; from it on there is its stop."""
+        states = zip(self._limits, axes_of(point.command), strict=True)
+        self._stop = _Piece(point.due, point.due, [limits.stop(*state) for limits, state in states])
+        self._newest = point
 
 
-def _brake(p: float, v: float, most: float, t: float) -> Vec3:
-    """Return position, speed and acceleration t s into a stop at constant deceleration."""
-    end = abs(v) / most
-    a = -copysign(most, v) if t < end else 0.0
-    t = min(t, end)
-    return (
-        p + v * t - 0.5 * copysign(most, v) * t * t,
-        v - copysign(most, v) * t if t < end else 0.0,
-        a,
-    )
+def _stands(point: SetPoint) -> bool:
+    """Whether the set point is at rest."""
+    return not any(v or a for _, v, a in axes_of(point.command))
 
 
-def _timed(point: SetPoint, time: float) -> Command:
-    c = point.command
-    return Command(time, c.wheel_speed, c.wheel_acceleration, c.p_WS_W, c.v_WS_W, c.a_WS_W)
-
-
-def _coast(point: SetPoint, now: float) -> Command:
-    """Return the command at `now` after the newest set point, at its speeds."""
-    c, t = point.command, now - point.valid_from
-    (px, py, pz), (vx, vy, vz) = c.p_WS_W, c.v_WS_W
-    still = (0.0, 0.0, 0.0)
-    return Command(
-        now, c.wheel_speed, still, (px + t * vx, py + t * vy, pz + t * vz), c.v_WS_W, still
-    )
-
-
-def _between(one: SetPoint, two: SetPoint, now: float) -> Command:
-    h = two.valid_from - one.valid_from
-    s, a, b = (now - one.valid_from) / h, one.command, two.command
-    return Command(
-        now,
-        _cubic(a.wheel_speed, a.wheel_acceleration, b.wheel_speed, b.wheel_acceleration, h, s),
-        _linear(a.wheel_acceleration, b.wheel_acceleration, s),
-        _cubic(a.p_WS_W, a.v_WS_W, b.p_WS_W, b.v_WS_W, h, s),
-        _cubic(a.v_WS_W, a.a_WS_W, b.v_WS_W, b.a_WS_W, h, s),
-        _linear(a.a_WS_W, b.a_WS_W, s),
-    )
-
-
-def _cubic(x0: Vec3, d0: Vec3, x1: Vec3, d1: Vec3, h: float, s: float) -> Vec3:
-    """Interpolate (Hermite) between values x and derivatives d at both ends of h s, at share s."""
-    r = 1.0 - s
-    u0, w0, u1, w1 = (1.0 + 2.0 * s) * r * r, h * s * r * r, (1.0 + 2.0 * r) * s * s, -h * r * s * s
-    x, y, z = (u0 * p + w0 * v + u1 * q + w1 * w for p, v, q, w in zip(x0, d0, x1, d1, strict=True))
-    return x, y, z
-
-
-def _linear(x0: Vec3, x1: Vec3, s: float) -> Vec3:
-    x, y, z = ((1.0 - s) * p + s * q for p, q in zip(x0, x1, strict=True))
-    return x, y, z
+def _same(one: Sequence[Vec3], other: Sequence[Vec3]) -> bool:
+    pairs = zip(one, other, strict=True)
+    return all(abs(x - y) <= SAME for a, b in pairs for x, y in zip(a, b, strict=True))

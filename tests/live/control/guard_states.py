@@ -1,7 +1,6 @@
 """Commands for the guard, axis by axis, and an independent check of its output.
 
-Axes 0 to 2 are the wheels, whose position nobody commands, 3 to 5 the stage's x, y, z; a state is
-(p, v, a).
+Axes 0 to 2 are the wheels, 3 to 5 the stage's x, y, z; a state is (p, v, a).
 """
 
 from collections.abc import Iterable, Sequence
@@ -21,7 +20,7 @@ State = tuple[float, float, float]
 AXES = ("wheel 1", "wheel 2", "wheel 3", "stage x", "stage y", "stage z")
 ROUNDING = 1.0 + 5e-7  # the guard's room for rounding
 REST: State = (0.0, 0.0, 0.0)
-STANDING = Command(0.0, ZERO, ZERO, ZERO, ZERO, ZERO)
+STANDING = Command(0.0, ZERO, ZERO, ZERO, ZERO, ZERO, ZERO)
 
 # Every limit different.
 WHEELS = WheelLimits((31.0, 20.0, 25.0), (60.0, 80.0, 50.0), (600.0, 700.0, 450.0))
@@ -38,12 +37,12 @@ def limits(axis: int) -> tuple[float, float, float, float]:
 
 def command(time: float, states: Sequence[State]) -> Command:
     p, v, a = (tuple(float(x) for x in column) for column in zip(*states, strict=True))
-    return Command(time, v[:3], a[:3], p[3:], v[3:], a[3:])  # type: ignore[arg-type]
+    return Command(time, v[:3], a[:3], p[3:], v[3:], a[3:], p[:3])  # type: ignore[arg-type]
 
 
 def states(one: Command) -> list[State]:
     p, v, a = (
-        (0.0, 0.0, 0.0, *one.p_WS_W),
+        (*one.wheel_angle, *one.p_WS_W),
         one.wheel_speed + one.v_WS_W,
         one.wheel_acceleration + one.a_WS_W,
     )
@@ -78,7 +77,7 @@ def stop_distance(v: float, a_max: float, j_max: float) -> float:
 
 
 def rows(outputs: Iterable[Command]) -> Array:
-    """(n, 6, 3) of p, v, a; wheels have p = 0."""
+    """(n, 6, 3) of p, v, a."""
     return np.array([states(one) for one in outputs])
 
 

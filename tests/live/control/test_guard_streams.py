@@ -15,7 +15,7 @@ from smoothing.platforms import PLATFORMS
 
 from atlas_cueing.live.control.command import Command
 from atlas_cueing.live.control.guard import Guard
-from atlas_cueing.rotation import ZERO, apply
+from atlas_cueing.rotation import ZERO, Vec3, apply
 from atlas_cueing.run import build_pipeline, open_vehicle
 from atlas_cueing.scenario import load_scenario
 from atlas_cueing.signals import Motion, Tick
@@ -27,9 +27,9 @@ FIELDS = [field.name for field in fields(Command)]
 ROUGH = 3e-6  # share of a limit: the guard's room, and the rounding of third differences over 1 ms
 
 
-def of(tick: Tick) -> Command:
+def of(tick: Tick, angle: Vec3) -> Command:
     m, wheels = tick.motion, tick.wheels
-    return Command(m.time, wheels.speed, wheels.acceleration, m.p_WS_W, m.v_WS_W, m.a_WS_W)
+    return Command(m.time, wheels.speed, wheels.acceleration, m.p_WS_W, m.v_WS_W, m.a_WS_W, angle)
 
 
 @pytest.mark.parametrize(
@@ -44,7 +44,7 @@ def test_flights_pass_untouched(name: str, method: str) -> None:
         vehicle.dt, scenario.platform.wheel_limit_values(), scenario.platform.stage_limit_values()
     )
     for _ in range(1000):
-        one = of(pipeline.step(vehicle.state))
+        one = of(pipeline.step(vehicle.state), pipeline.smoothing.wheel_motion()[0])
         assert guard.check(one) is one, guard.reason
         assert vehicle.advance()
     assert not guard.standing
@@ -56,7 +56,7 @@ def test_smoothing_of_wild_cues_passes_untouched(name: str, dt: float) -> None:
     """At the limits most of the time, with each of smoothing's three kinds of step."""
     platform = PLATFORMS[name]
     x, y, z = (tuple(row) for row in platform.wheels_from_sphere.tolist())
-    step, guard = platform.smoothing(dt).step, Guard(dt, platform.wheels, platform.stage)
+    smoothing, guard = platform.smoothing(dt), Guard(dt, platform.wheels, platform.stage)
 
     def driven(m: Motion) -> Command:
         return Command(
@@ -66,10 +66,11 @@ def test_smoothing_of_wild_cues_passes_untouched(name: str, dt: float) -> None:
             m.p_WS_W,
             m.v_WS_W,
             m.a_WS_W,
+            smoothing.wheel_motion()[0],
         )
 
     for cue in wild(dt, 1000, np.random.default_rng(11)):
-        one = driven(step(cue))
+        one = driven(smoothing.step(cue))
         assert guard.check(one) is one, guard.reason
 
 

@@ -32,7 +32,7 @@ def test_it_starts_parked_at_rest_upright_in_the_centre() -> None:
     assert not rig.platform.moving
     assert rig.platform.needs_cueing
     assert rig.motion == Motion(0.0, IDENTITY, ZERO, ZERO, ZERO, ZERO, ZERO, (0.0, 0.0))
-    assert command_of(rig.platform.step(no_vehicle(rig.dt))) == standstill(rig.motion)
+    assert command_of(rig.platform.step(no_vehicle(rig.dt)), ZERO) == standstill(rig.motion, ZERO)
 
 
 def test_an_event_without_a_way_changes_nothing() -> None:

@@ -6,34 +6,43 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
-from time import monotonic, sleep
+from time import monotonic_ns, sleep
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from atlas_cueing.errors import InputError
-from atlas_cueing.live.control.command import Command
-from atlas_cueing.live.output.receiver import WATCHDOG_S, SetPointReceiver
+from atlas_cueing.live.control.command import Command, axes_of, command_from
+from atlas_cueing.live.control.trajectories import smoothstep
+from atlas_cueing.live.output.receiver import SetPointReceiver
 from atlas_cueing.live.output.setpoint import SIZE, SetPointSender, encode
-from atlas_cueing.rotation import Vec3
 
-from ..commands import REST, swinging
+from ..commands import REST
+from ..control.guard_states import STAGE, WHEELS, limits
 
 SENDER = ("127.0.0.1", 4001)
-WHEELS: Vec3 = (60.0, 50.0, 40.0)
-STAGE: Vec3 = (6.0, 6.0, 5.0)
+STEP = 10_000_000  # ns
+DUE = 18_000_000  # ns from a packet's sending until it is due
+START = 10**12  # ns on the clock when the run began
+TURN = 2.0  # s that the motion takes
 LEAD = 0.008
-STEP = 0.01
-START = 1000.0  # s on the clock when the run began
 TOOL = Path(__file__).parents[3] / "tools" / "receive_setpoints"
 
 
+def moving(k: int) -> Command:
+    """From rest by 6 rad of each wheel and 0.3 m of each axis, at tick k."""
+    s, ds, dds = smoothstep(k * STEP * 1e-9 / TURN)
+    ways = [6.0, -6.0, 3.0, 0.3, -0.3, 0.2]
+    axes = [(way * s, way * ds / TURN, way * dds / TURN**2) for way in ways]
+    return command_from(k * STEP * 1e-9, axes)
+
+
 def packet(k: int, session: int = 7, key: bytes = b"", command: Command | None = None) -> bytes:
-    """The one of tick k, at START + k STEP."""
-    return encode(
-        session, k, k * STEP, START + k * STEP + LEAD, 2, command or swinging(k * STEP), key
-    )
+    """The one of tick k, sent at START + k STEP."""
+    due = START + k * STEP + DUE
+    return encode(session, k, k * STEP * 1e-9, due, 2, command or moving(k), key)
 
 
 def following(ticks: int, key: bytes = b"") -> SetPointReceiver:
@@ -44,205 +53,160 @@ def following(ticks: int, key: bytes = b"") -> SetPointReceiver:
     return receiver
 
 
+def near(command: Command | None, true: Command, tolerance: float) -> bool:
+    assert command is not None
+    return bool(np.max(np.abs(np.subtract(axes_of(command), axes_of(true)))) <= tolerance)
+
+
 class TestFollowing:
     def test_there_is_nothing_to_do_before_the_first_packet(self) -> None:
         receiver = SetPointReceiver(WHEELS, STAGE)
         assert receiver.at(START) is None
-        assert receiver.at(START + 100.0) is None
-        assert receiver.tripped == ""
-        assert receiver.newest is None
+        assert receiver.report(START).state == "waiting"
+        assert (receiver.tripped, receiver.newest) == ("", None)
 
     def test_at_a_set_points_own_time_it_is_that_set_point(self) -> None:
-        receiver = following(5)
-        for k in range(5):
-            command = receiver.at(START + k * STEP + LEAD)
-            assert close(command, swinging(k * STEP), 1e-9)
-
-    def test_before_the_first_ones_time_it_is_the_first(self) -> None:
-        assert close(following(1).at(START), swinging(0.0), 0.0)
-
-    @given(st.floats(0.0, 0.29))
-    def test_between_it_is_the_motion_itself(self, t: float) -> None:
-        """The error of Hermite's interpolation has a bound.
-
-        h^4 / 384 of the fourth derivative in position and speed, h^2 / 8 of the second in
-        acceleration.
-        """
-        command = following(30).at(START + LEAD + t)
-        true = swinging(t)
-        assert close(
-            replace(command, wheel_acceleration=true.wheel_acceleration, a_WS_W=true.a_WS_W),
-            true,
-            2.1e-9 * 16 * 5 + 1e-9,
-        )
-        assert close(command, true, STEP**2 / 8.0 * 40.0 + 1e-9)
-
-    @given(st.floats(0.0, 0.999 * WATCHDOG_S - LEAD))
-    def test_after_the_newest_it_keeps_its_speeds(self, t: float) -> None:
-        receiver = following(30)
-        last = swinging(0.29)
-        command = receiver.at(START + 0.29 + LEAD + t)
-        assert command is not None
-        assert command.wheel_speed == pytest.approx(last.wheel_speed)
-        assert command.v_WS_W == pytest.approx(last.v_WS_W)
-        assert command.p_WS_W == pytest.approx(
-            [p + v * t for p, v in zip(last.p_WS_W, last.v_WS_W, strict=True)]
-        )
-        assert receiver.tripped == ""
-
-    def test_all_of_a_burst_is_kept(self) -> None:
-        """Packets of the next 90 ms at once, as after a hiccup of the network."""
-        receiver = SetPointReceiver(WHEELS, STAGE)
+        receiver = following(9)
         for k in range(9):
-            assert receiver.take(packet(k), SENDER, START) == ""
-        for k in range(9):
-            assert close(receiver.at(START + k * STEP + LEAD), swinging(k * STEP), 1e-9)
+            assert near(receiver.at(START + k * STEP + DUE), moving(k), 1e-9)
+
+    def test_between_two_the_jerk_keeps_its_limit_and_all_is_one_motion(self) -> None:
+        receiver, h = following(200), 1e-4
+        times = range(START + DUE, START + DUE + 198 * STEP, 100_000)
+        x = np.array([axes_of(command) for t in times if (command := receiver.at(t))])
+        jerk = np.diff(x[:, :, 2], axis=0) / h
+        assert np.all(np.abs(jerk) <= np.array([limits(k)[2] for k in range(6)]) * (1.0 + 1e-5))
+        for order in (0, 1):
+            mean = 0.5 * (x[1:, :, order + 1] + x[:-1, :, order + 1])
+            # the trapezoid's own error: jerk h, and h^2 of it
+            assert np.max(np.abs(np.diff(x[:, :, order], axis=0) / h - mean)) < 200.0 * h ** (
+                2 - order
+            )
+
+    @pytest.mark.parametrize("lost", [1, 2, 5])
+    def test_lost_packets_are_a_longer_way_to_the_next(self, lost: int) -> None:
+        receiver = following(50)
+        assert receiver.take(packet(50 + lost), SENDER, START + 50 * STEP) == ""
+        assert near(receiver.at(START + (50 + lost) * STEP + DUE), moving(50 + lost), 1e-9)
+        assert receiver.report(START + (50 + lost) * STEP + DUE).state == "following"
 
 
 class TestRefusing:
     def test_a_packet_sent_again_or_out_of_order(self) -> None:
-        receiver = following(3)
-        now = START + 3 * STEP
-        assert (
-            receiver.take(packet(2), SENDER, now)
-            == "packet 2 comes after 2: out of order or sent again"
-        )
-        assert (
-            receiver.take(packet(0), SENDER, now)
-            == "packet 0 comes after 2: out of order or sent again"
-        )
+        receiver, now = following(3), START + 3 * STEP
+        for k in (2, 0):
+            told = f"packet {k} comes after 2: out of order or sent again"
+            assert receiver.take(packet(k), SENDER, now) == told
         assert receiver.take(packet(4), SENDER, now) == ""
         assert "comes after 4" in receiver.take(packet(3), SENDER, now)
         assert (receiver.good, receiver.refused) == (4, 3)
 
     def test_another_sender_or_session_than_the_first_good_one(self) -> None:
-        receiver = SetPointReceiver(WHEELS, STAGE)
-        assert "packet of 3 bytes" in receiver.take(b"bad", ("127.0.0.1", 9), START)
-        assert receiver.take(packet(0), SENDER, START) == ""
-        assert "from another sender, 127.0.0.1:9," in receiver.take(
-            packet(1), ("127.0.0.1", 9), START
-        )
+        receiver, other = following(1), ("127.0.0.1", 9)
+        assert "from another sender, 127.0.0.1:9," in receiver.take(packet(1), other, START)
         assert "from another sender" in receiver.take(packet(1, session=8), SENDER, START)
         assert receiver.take(packet(1), SENDER, START) == ""
 
     def test_a_time_that_cannot_be(self) -> None:
         receiver = SetPointReceiver(WHEELS, STAGE)
-        assert "valid from 0.208 s ahead, allowed: 0.1 s" in receiver.take(
-            packet(0), SENDER, START - 0.2
-        )
-        assert "valid from 0.192 s ago, allowed: 0.1 s" in receiver.take(
-            packet(0), SENDER, START + 0.2
-        )
-        assert receiver.take(packet(1), SENDER, START) == ""
-        same = encode(7, 2, 0.0, START + STEP + LEAD, 2, REST)
-        assert (
-            receiver.take(same, SENDER, START)
-            == "packet 2 is not valid from later than the one before"
-        )
+        told = "packet 0 is due 0.218 s ahead, allowed: 0.1 s"
+        assert receiver.take(packet(0), SENDER, START - 200_000_000) == told
+        assert receiver.take(packet(0), SENDER, START) == ""
+        same = encode(7, 1, 0.0, START + DUE, 2, REST)
+        assert receiver.take(same, SENDER, START) == "packet 1 is not due later than the one before"
 
-    def test_a_forged_packet_changes_nothing(self) -> None:
-        key = bytes(16)
-        receiver = following(3, key)
-        before = receiver.at(START + 2 * STEP)
-        assert "as the receiver has a key" in receiver.take(packet(3), SENDER, START + 2 * STEP)
-        assert "wrong check" in receiver.take(
-            packet(3, key=bytes(range(16))), SENDER, START + 2 * STEP
-        )
-        assert receiver.at(START + 2 * STEP) == before
+    def test_a_first_one_that_moves_or_is_elsewhere(self) -> None:
+        receiver = SetPointReceiver(WHEELS, STAGE)
+        for wrong in (moving(20), replace(REST, p_WS_W=(0.0, 1e-3, 0.0))):
+            told = receiver.take(packet(20, command=wrong), SENDER, START + 20 * STEP)
+            assert told == "packet 20 is the first and does not stand where the drives do"
+        receiver.reset((0.0, 1e-3, 0.0))
+        assert receiver.take(packet(20, command=wrong), SENDER, START + 20 * STEP) == ""
 
-    def test_a_key_of_a_wrong_size(self) -> None:
+    @pytest.mark.parametrize("field", ["p_WS_W", "wheel_angle", "wheel_speed", "v_WS_W"])
+    @pytest.mark.parametrize("by", [5.0, 0.01])
+    def test_a_jump(self, field: str, by: float) -> None:
+        receiver, good = following(60), moving(60)
+        x, y, z = getattr(good, field)
+        jumped = packet(60, command=replace(good, **{field: (x, y + by * 10.0, z)}))
+        assert "packet 60 cannot be reached: " in receiver.take(jumped, SENDER, START + 60 * STEP)
+        assert receiver.take(packet(60), SENDER, START + 60 * STEP) == ""
+
+    def test_a_key_cannot_be_avoided(self) -> None:
+        receiver, now = following(3, bytes(16)), START + 3 * STEP
+        assert "as the receiver has a key" in receiver.take(packet(3), SENDER, now)
+        assert "wrong check" in receiver.take(packet(3, key=bytes(range(16))), SENDER, now)
         with pytest.raises(InputError, match="shared key of 3 bytes"):
             SetPointReceiver(WHEELS, STAGE, b"abc")
 
     @given(st.lists(st.binary(max_size=SIZE + 8), max_size=20))
-    def test_rubbish_neither_trips_nor_feeds_the_watchdog(self, rubbish: list[bytes]) -> None:
-        receiver = following(3)
-        for data in rubbish:
-            assert receiver.take(data, SENDER, START + 2 * STEP + 0.09)
-        receiver.at(START + 2 * STEP + 0.099)
+    def test_rubbish_changes_nothing(self, rubbish: list[bytes]) -> None:
+        receiver, calm = following(60), following(60)
+        now = START + 60 * STEP
+        assert all(receiver.take(data, SENDER, now) for data in rubbish)
+        assert receiver.at(now + STEP) == calm.at(now + STEP)
+
+
+class TestTheStop:
+    def test_it_begins_at_once_and_is_the_guards(self) -> None:
+        receiver, due = following(100), START + 99 * STEP + DUE
+        receiver.at(due)
         assert receiver.tripped == ""
-        receiver.at(START + 2 * STEP + 0.11)
-        assert receiver.tripped == "no good set point for 0.110 s, allowed: 0.1 s"
+        receiver.at(due + 1)
+        assert receiver.tripped == "no successor of set point 99 when that was due"
+        assert receiver.report(due + 1).state == "stopping"
+        ended = receiver.at(due + 10**9)
+        assert ended is not None
+        assert not any(v or a for _, v, a in axes_of(ended))
 
+    def test_a_set_point_on_it_is_followed_however_late_and_leads_on(self) -> None:
+        receiver, due = following(100), START + 99 * STEP + DUE
+        twin = following(100)
+        for k in range(100, 155):
+            on_it = twin.at(due + (k - 99) * STEP)
+            told = receiver.take(packet(k, command=on_it), SENDER, due + 500_000_000 + k)
+            assert told == "", (k, told)
+        assert receiver.report(due + 10**9).state == "following"
 
-class TestTheWatchdog:
-    def test_it_trips_after_a_tenth_of_a_second_and_not_before(self) -> None:
-        receiver = following(30)
-        last = START + 29 * STEP
-        receiver.at(last + 0.0999)
-        assert receiver.tripped == ""
-        receiver.at(last + 0.1001)
-        assert receiver.tripped.startswith("no good set point for 0.100 s")
+    @pytest.mark.parametrize("late_ms", [1, 3, 5])
+    def test_one_that_can_still_be_reached_is_rejoined(self, late_ms: int) -> None:
+        receiver = following(100)
+        now = START + 99 * STEP + DUE + late_ms * 10**6
+        assert receiver.take(packet(104), SENDER, now) == ""
+        assert receiver.report(START + 104 * STEP + DUE).state == "following"
+        assert near(receiver.at(START + 104 * STEP + DUE), moving(104), 1e-9)
 
-    def test_a_packet_that_comes_too_late_does_not_undo_it(self) -> None:
-        """Nobody asked between: the packet itself finds the watchdog expired."""
-        receiver = following(3)
-        late = START + 2 * STEP + 0.15
-        assert (
-            receiver.take(packet(17), SENDER, late)
-            == "stopped: no good set point for 0.150 s, allowed: 0.1 s; reset first"
-        )
-
-    def test_packets_that_all_come_late_trip_it_too(self) -> None:
-        receiver = SetPointReceiver(WHEELS, STAGE)
-        for k in range(20):
-            delay = 0.009 * k
-            receiver.take(packet(k), SENDER, START + k * STEP + LEAD + delay)
-        assert receiver.tripped.startswith("set points late by 0.1")
-
-    @pytest.mark.parametrize("seed", range(3))
-    def test_the_stop_keeps_to_the_accelerations_and_ends_at_rest(self, seed: int) -> None:
-        receiver = following(30 + seed)
-        start = START + (29 + seed) * STEP + WATCHDOG_S + 1e-6
-        first = receiver.at(start)
-        assert first is not None
-        before, dt = first, 1e-3
-        for k in range(1, 400):
-            now = receiver.at(start + k * dt)
-            assert now is not None
-            for v0, v, most in zip(before.wheel_speed, now.wheel_speed, WHEELS, strict=True):
-                assert abs(v - v0) <= most * dt * (1 + 1e-6)
-                assert abs(v) <= abs(v0)
-            for p0, v0, p, v, most in zip(
-                before.p_WS_W, before.v_WS_W, now.p_WS_W, now.v_WS_W, STAGE, strict=True
-            ):
-                assert abs(v - v0) <= most * dt * (1 + 1e-6)
-                assert abs(v) <= abs(v0)
-                assert p - p0 == pytest.approx(0.5 * (v0 + v) * dt, abs=most * dt * dt)
-            before = now
-        assert (
-            before.wheel_speed
-            == before.v_WS_W
-            == before.wheel_acceleration
-            == before.a_WS_W
-            == (0.0, 0.0, 0.0)
-        )
-        expected = [
-            p + v * abs(v) / (2 * a)
-            for p, v, a in zip(first.p_WS_W, first.v_WS_W, STAGE, strict=True)
-        ]
-        assert before.p_WS_W == pytest.approx(expected, abs=1e-9)
-
-    def test_it_is_latched_until_reset(self) -> None:
-        receiver = following(3)
-        receiver.at(START + 1.0)
-        reason = receiver.tripped
-        assert "reset first" in receiver.take(packet(100), SENDER, START + 1.0)
-        receiver.at(START + 1.1)
-        assert receiver.tripped == reason
+    def test_after_20_ms_it_latches_until_reset(self) -> None:
+        receiver = following(100)
+        now = START + 99 * STEP + DUE + 21_000_000
+        assert "is not on its way to rest" in receiver.take(packet(104), SENDER, now)
+        assert "reset first" in receiver.take(packet(105), SENDER, now)
+        assert receiver.report(now).state == "latched"
         receiver.reset()
+        assert (receiver.tripped, receiver.at(now)) == ("", None)
+        assert receiver.take(packet(0, session=9), ("127.0.0.1", 5), now) == ""
+
+    def test_one_that_stands_needs_no_successor(self) -> None:
+        receiver = following(1)
+        receiver.at(START + 10**10)
         assert receiver.tripped == ""
-        assert receiver.at(START + 1.1) is None
-        assert receiver.take(packet(111, session=9), ("127.0.0.1", 5), START + 1.11) == ""
+        late = encode(7, 2, 0.0, START + 10**9, 0, REST)
+        assert receiver.take(late, SENDER, START + 10**10) == ""
+
+    def test_the_least_margin_is_reported(self) -> None:
+        receiver = following(3)
+        assert receiver.report(START + 3 * STEP).margin == pytest.approx(0.018)
+        receiver.take(packet(3), SENDER, START + 3 * STEP + 5_000_000)
+        assert receiver.report(START + 4 * STEP).margin == pytest.approx(0.013)
 
 
 class TestTheCommand:
-    def test_it_tells_rate_lateness_and_the_trip_at_the_end(self) -> None:
+    def test_it_tells_rate_and_lateness(self) -> None:
         # a tenth of a second is sent, and up to three on a busy machine
         done = received(20, "--duration", "3.0")
         report = json.loads(done.stdout)
-        assert done.returncode == 1, "the sender stops before the receiver does"
-        assert "allowed: 0.1 s" in report["tripped"]
+        assert done.returncode == 0, report
+        assert report["tripped"] == ""
         assert report["good"] > 0
         assert report["rate_hz"] == round(report["good"] / 3.0, 2)
         assert (
@@ -296,20 +260,10 @@ def received(count: int, *arguments: str) -> subprocess.CompletedProcess[str]:
         sender, k, taken = SetPointSender("127.0.0.1", port), 0, 0
         while taken < count and k < 12_000:
             before = sender.unsent
-            sender.send(k, k * 0.005, monotonic() + LEAD, 2, swinging(k * 0.005))
+            sender.send(k, k * 0.005, monotonic_ns() + round(1e9 * LEAD), 0, REST)
             sleep(0.005)
             # every other one is not taken while nobody listens
             k, taken = k + 1, taken + 1 if sender.unsent == before else 0
         sender.close()
         out, error = process.communicate(timeout=60.0)
     return subprocess.CompletedProcess(command, process.returncode, out, error)
-
-
-def close(command: Command | None, true: Command, tolerance: float) -> bool:
-    assert command is not None
-    pairs = zip(numbers(command), numbers(true), strict=True)
-    return all(abs(a - b) <= tolerance for a, b in pairs)
-
-
-def numbers(c: Command) -> tuple[float, ...]:
-    return (*c.wheel_speed, *c.wheel_acceleration, *c.p_WS_W, *c.v_WS_W, *c.a_WS_W)

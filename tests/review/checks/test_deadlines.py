@@ -27,6 +27,8 @@ def live(**columns: np.ndarray) -> RecordedRun:
         "cost_s": np.full(count, 1e-4),
         "input_age_s": np.zeros(count),
         "missed_deadlines": MISSED * (at >= MISSED_AT).astype(float),
+        "wheel_difference_rad": np.zeros(len(at)),
+        "stage_difference_m": np.zeros(len(at)),
         "state": np.full(count, 2.0),
     } | columns
     values = np.column_stack([table[name] for name in TIMING.fields])

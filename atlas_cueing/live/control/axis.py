@@ -1,0 +1,151 @@
+"""One axis of wheels or stage: what may follow a state, and the stop that is always left.
+
+The guard examines every command by it, and the drives' side every set point: see `guard` for the
+inequalities. `CertifiedStop` is what both fly when there is nothing else to fly.
+"""
+
+# mypyc: runs every tick
+
+from math import copysign, inf, isinf, sqrt, ulp
+
+from ...errors import InputError
+from ...rotation import Vec3
+
+# share by which a limit may be passed, as differences of rounded numbers do; the stop has it, too
+ROUNDING = 5e-7
+
+Checks = tuple[tuple[str, float, float, float], ...]  # what, value, lowest and highest allowed
+
+
+class AxisLimits:
+    """Limits of one axis, with room for rounding; the travel of a wheel is infinite.
+
+    Between two ticks a motion leaves the line between its ends by A h^2 / 8 at most: so much of the
+    travel is not used.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        dt: float,
+        speed: float,
+        acceleration: float,
+        jerk: float,
+        travel: float = inf,
+    ) -> None:
+        """Set up the limits (m or rad, s) of the axis `name`, for ticks of dt (s).
+
+        Raises InputError for a tick or a limit that is not positive, or no travel between ticks.
+        """
+        named = (("tick", dt), ("speed", speed), ("acceleration", acceleration), ("jerk", jerk))
+        for what, value in named:
+            if not 0.0 < value < inf:
+                raise InputError(f"{name}{what} {value:g}, allowed: 0 < value < inf")
+        self.name = name
+        self.speed, self.acceleration, self.jerk = (
+            x * (1.0 + ROUNDING) for x in (speed, acceleration, jerk)
+        )
+        # for J in speed and position: rounding there, and h - |D| / J > 0
+        self.reach = self.jerk * (1.0 + ROUNDING)
+        self.travel = travel
+        if not isinf(travel):
+            self.travel = travel * (1.0 + ROUNDING) - acceleration * dt * dt / 8.0
+
+    def checks(self, h: float, v0: float, a0: float, v: float, a: float) -> Checks:
+        """Return the checks from speed v0 and acceleration a0 to v and a, h s later."""
+        fast, strong = self.speed, self.acceleration
+        turn, gain, D = self.jerk * h, strong * h, a - a0
+        mean, bend = v0 + 0.5 * h * (a0 + a), 0.25 * (self.reach * h * h - D * D / self.reach)
+        return (
+            ("speed", v, -fast, fast),
+            ("acceleration", a, -strong, strong),
+            ("acceleration by the jerk", a, a0 - turn, a0 + turn),
+            ("speed by the acceleration", v, v0 - gain, v0 + gain),
+            ("speed by the jerk", v, mean - bend, mean + bend),
+            ("speed on the way to standstill", v + 0.5 * a * abs(a) / self.jerk, -fast, fast),
+        )
+
+    def place_checks(
+        self, h: float, p0: float, v0: float, a0: float, p: float, v: float, a: float
+    ) -> Checks:
+        """Return the checks from p0, v0, a0 to p, v, a, h s later, if v and a are fit."""
+        end, blur = self.travel, 4.0 * ulp(p0 if isinf(self.travel) else self.travel)
+        way, sag = self.speed * h + blur, 0.5 * self.acceleration * h * h + blur
+        old, new = p0 + h * v0, p0 + h * v
+        low, high = self.reachable(h, p0, v0, a0, v, a)
+        by_rates = (
+            ("position by the speed", p, p0 - way, p0 + way),
+            ("position by the acceleration", p, old - sag, old + sag),
+            ("position by the acceleration", p, new - sag, new + sag),
+            ("position by the jerk", p, low - blur, high + blur),
+        )
+        if isinf(end):
+            return by_rates
+        stop = self.stop(p, v, a)
+        return (
+            ("position", p, -end, end),
+            *by_rates,
+            ("standstill", stop.end, -end, end),
+            ("turning point", stop.turning_point, -end, end),
+        )
+
+    def reachable(
+        self, h: float, p0: float, v0: float, a0: float, v: float, a: float
+    ) -> tuple[float, float]:
+        """Return the lowest and the highest p to which h s of limited jerk can lead."""
+        D = a - a0
+        m = 0.5 * h * (a0 + a) - (v - v0)
+        c, skew = p0 + 0.5 * h * (v0 + v) - h * h * D / 8.0, D / self.reach
+        return (
+            c - 0.5 * self._moment(h, m, h + skew),
+            c + 0.5 * self._moment(h, m, h - skew),
+        )
+
+    def stop(self, p: float, v: float, a: float) -> "CertifiedStop":
+        """Return the shortest stop from position p, speed v and acceleration a."""
+        return CertifiedStop(p, v, a, self.acceleration, self.jerk)
+
+    def _moment(self, h: float, m: float, d: float) -> float:
+        """Return f(d) of the guard's text."""
+        return self.reach * (h * h * h / 12.0 - d * d * d / 48.0) - m * m / (self.reach * d)
+
+
+class CertifiedStop:
+    """The shortest jerk-limited way from (p, v, a) to rest at `end`.
+
+    With u = v + a|a| / 2J, the speed if a were brought to zero, v and a times u's sign brake
+    downwards, along a trapezoid that begins with no acceleration and the speed s = v + a^2 / 2J, at
+    a time -a / J after now: a ramp of min(A / J, sqrt(s / J)), max(s / A - A / J, 0) at full
+    deceleration, a ramp back. (p, v, a) is a point of that trapezoid, or of its first ramp drawn
+    backwards when a speeds it up; drawn further than sqrt(2 s / J), where v was zero, it goes the
+    other way first, to the `turning_point`, which is p if it does not.
+    """
+
+    def __init__(self, p: float, v: float, a: float, acceleration: float, jerk: float) -> None:
+        sign = copysign(1.0, v + 0.5 * a * abs(a) / jerk)
+        top = sign * v + 0.5 * a * a / jerk
+        self._ramp, self._hold = acceleration / jerk, top / acceleration - acceleration / jerk
+        if self._hold < 0.0:
+            self._ramp, self._hold = sqrt(top / jerk), 0.0
+        self._jerk = sign * jerk
+        self._since, turn = -a / self._jerk, -sqrt(2.0 * top / jerk)
+        begin = p + (self._jerk * self._since * self._since / 6.0 - sign * top) * self._since
+        self.end = begin + sign * top * (self._ramp + 0.5 * self._hold)
+        self.turning_point = begin + sign * top * turn / 1.5 if self._since < turn else p
+
+    def at(self, t: float) -> Vec3:
+        """Return position, speed and acceleration t >= 0 s after its start.
+
+        They are integrated backwards from the end: every sum is one of products, and zero at the
+        end to the last bit.
+        """
+        now, ramp, hold = self._since + t, self._ramp, self._hold
+        # s, left of the last ramp, of the hold, of the first ramp
+        z = min(max(2.0 * ramp + hold - now, 0.0), ramp)
+        y = min(max(ramp + hold - now, 0.0), hold)
+        x = max(ramp - now, 0.0)
+        left = (
+            z * z * z / 6.0 + 0.5 * z * y * (z + y) + z * x * (0.5 * (z + x) + y) - x * x * x / 6.0
+        )
+        speed = 0.5 * (z * z - x * x) + z * (y + x)
+        return self.end - self._jerk * left, self._jerk * speed, self._jerk * (x - z)

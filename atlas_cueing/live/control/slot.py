@@ -1,0 +1,35 @@
+"""The slot of real time that one tick belongs to."""
+
+# mypyc: runs every tick
+
+from collections.abc import Callable
+
+RESERVE = 0.001  # s that guard, encoding and transport of a set point may take (assumed)
+
+
+class Slot:
+    """One period of the loop.
+
+    Whoever follows set points needs this slot's when the one before it is due. So the slot is lost
+    as soon as less than RESERVE is left until then.
+
+    time: of the platform, s.
+    """
+
+    def __init__(self, now: Callable[[], float], time: float, needed: float) -> None:
+        """Set up.
+
+        Args:
+            now: returns the time of the loop's clock, s.
+            time: of the platform, s.
+            needed: when the set point has to be with the drives, s of the clock.
+        """
+        self._now, self._latest = now, needed - RESERVE
+        self.time = time
+
+    def late(self) -> float:
+        """Return by how much it is too late now for the set point of this slot, s.
+
+        A number above zero means that the slot is lost.
+        """
+        return self._now() - self._latest
