@@ -5,14 +5,13 @@
 from dataclasses import dataclass
 from math import pi
 
-from ..rotation import Quat, Vec3, flip, subtract
+from ..rotation import Quat, Vec3, flip
 from ..signals import VehicleState
 from .cabin import SLOW_TURN, Cabin, SlowTurnParameters, cabin_rate, slow_turn
-from .damping import DampedVector
 from .method import Method
 from .parameter import ONES, Parameter
 from .stage.stage_parameters import GAIN
-from .tilt import HOLD, ForceDirection, aligned, misalignment
+from .tilt import HOLD, LastingRate, aligned, misalignment
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +48,7 @@ class BlendRotation:
     def __init__(self, dt: float, parameters: BlendParameters) -> None:
         """Begin at the first state, aligned with its force; dt in s."""
         self._dt, self._parameters = dt, parameters
-        self._parts: tuple[Cabin, ForceDirection, DampedVector] | None = None
+        self._parts: tuple[Cabin, LastingRate] | None = None
 
     def step(self, vehicle: VehicleState) -> tuple[Quat, Vec3]:
         """Give orientation q_WS and rate w_WS_W (rad/s) of the cue for the next vehicle state."""
@@ -57,23 +56,16 @@ class BlendRotation:
         if self._parts is None:
             self._parts = self._begin(vehicle, w_S, f_S)
             return self._parts[0].cue
-        cabin, direction, rate = self._parts
-        direction.step(f_S)
-        lasting = rate.step(w_S)
+        cabin, lasting = self._parts
+        extra = lasting.step(w_S, f_S)
         cabin.carry(w_S)
-        cabin.correct(
-            misalignment(cabin.q_WS, f_S, self._parameters.hold),
-            subtract(direction.carried(lasting), lasting),
-        )
+        cabin.correct(misalignment(cabin.q_WS, f_S, self._parameters.hold), extra)
         return cabin.cue
 
-    def _begin(
-        self, vehicle: VehicleState, w_S: Vec3, f_S: Vec3
-    ) -> tuple[Cabin, ForceDirection, DampedVector]:
+    def _begin(self, vehicle: VehicleState, w_S: Vec3, f_S: Vec3) -> tuple[Cabin, LastingRate]:
         dt, parameters = self._dt, self._parameters
         cabin = Cabin(dt, aligned(vehicle, parameters.hold), w_S, parameters.turn)
-        direction = ForceDirection(dt, parameters.bandwidth, parameters.hold, f_S)
-        return cabin, direction, DampedVector(parameters.bandwidth, dt, w_S)
+        return cabin, LastingRate(dt, parameters.bandwidth, parameters.hold, w_S, f_S)
 
 
 METHOD = Method(

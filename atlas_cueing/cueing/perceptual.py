@@ -4,15 +4,14 @@
 
 from dataclasses import dataclass
 
-from ..rotation import Quat, Vec3, flip, subtract
+from ..rotation import Quat, Vec3, flip
 from ..signals import VehicleState
 from .cabin import FreeCabin, cabin_rate
-from .damping import DampedVector
 from .felt_turn import FELT_TURN, FELT_TURN_KEYS, FeltTurn, FeltTurnParameters
 from .method import Method
 from .parameter import ONES, Parameter, Range
 from .stage.stage_parameters import GAIN
-from .tilt import HOLD, ForceDirection, aligned, misalignment
+from .tilt import HOLD, LastingRate, aligned, misalignment
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +44,7 @@ class PerceptualRotation:
         """Begin at the first state, aligned with its force; dt in s."""
         self._dt, self._parameters = dt, parameters
         self._extra = FeltTurn(dt, parameters.turn)
-        self._parts: tuple[FreeCabin, ForceDirection, DampedVector] | None = None
+        self._parts: tuple[FreeCabin, LastingRate] | None = None
 
     def step(self, vehicle: VehicleState) -> tuple[Quat, Vec3]:
         """Give orientation q_WS and rate w_WS_W (rad/s) of the cue for the next vehicle state."""
@@ -53,22 +52,17 @@ class PerceptualRotation:
         if self._parts is None:
             self._parts = self._begin(vehicle, w_S, f_S)
             return self._parts[0].cue
-        cabin, direction, rate = self._parts
-        direction.step(f_S)
-        filtered = rate.step(w_S)
+        cabin, lasting = self._parts
+        extra = lasting.step(w_S, f_S)
         cabin.carry(w_S)
         error = misalignment(cabin.q_WS, f_S, self._parameters.hold)
-        lasting = subtract(direction.carried(filtered), filtered)
-        cabin.turn(self._extra.step(error, lasting, w_S))
+        cabin.turn(self._extra.step(error, extra, w_S))
         return cabin.cue
 
-    def _begin(
-        self, vehicle: VehicleState, w_S: Vec3, f_S: Vec3
-    ) -> tuple[FreeCabin, ForceDirection, DampedVector]:
+    def _begin(self, vehicle: VehicleState, w_S: Vec3, f_S: Vec3) -> tuple[FreeCabin, LastingRate]:
         dt, parameters = self._dt, self._parameters
         cabin = FreeCabin(dt, aligned(vehicle, parameters.hold), w_S)
-        direction = ForceDirection(dt, parameters.bandwidth, parameters.hold, f_S)
-        return cabin, direction, DampedVector(parameters.bandwidth, dt, w_S)
+        return cabin, LastingRate(dt, parameters.bandwidth, parameters.hold, w_S, f_S)
 
 
 METHOD = Method(

@@ -22,6 +22,7 @@ from ..rotation import (
     rotate,
     scale,
     shortest_arc,
+    subtract,
     up_in_body,
 )
 from ..signals import VehicleState
@@ -119,3 +120,25 @@ class ForceDirection:
         return add(
             scale(there, add(across, scale(dot(w_S, along), along))), scale(1.0 - there, w_S)
         )
+
+
+class LastingRate:
+    """The cabin rate beyond the vehicle's own that stays with its specific force.
+
+    Force and rate pass the same filter, so that the difference has no lag of its own. In a level
+    turn it takes back psi' sin(phi) of the vehicle's rate psi'.
+    """
+
+    def __init__(self, dt: float, bandwidth: float, hold: float, w_S: Vec3, f_S: Vec3) -> None:
+        """Begin with the lasting rate w_S (rad/s, S) and force f_S (m/s^2, S).
+
+        bandwidth: natural frequency of the filter, rad/s; hold: as in `fade_in`; dt in s.
+        """
+        self._direction = ForceDirection(dt, bandwidth, hold, f_S)
+        self._rate = DampedVector(bandwidth, dt, w_S)
+
+    def step(self, w_S: Vec3, f_S: Vec3) -> Vec3:
+        """Take in rate and force of the next tick; give the extra rate (rad/s, S)."""
+        self._direction.step(f_S)
+        filtered = self._rate.step(w_S)
+        return subtract(self._direction.carried(filtered), filtered)

@@ -57,6 +57,7 @@ class ViewerProcess:
         check_viser("live")
 
         def start() -> "tuple[LivePage, int]":
+            """Open the page in the new process; give it and its port."""
             from .live_page import LivePage
 
             server = open_server(port, title)

@@ -41,6 +41,7 @@ class _Piece:
     axes: Sequence[_Motion]
 
     def at(self, now: int) -> list[Vec3]:
+        """Return position, speed and acceleration of each axis at `now`, ns."""
         t = max(1e-9 * (now - self.begin), 0.0)
         return [axis.at(t) for axis in self.axes]
 
