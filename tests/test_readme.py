@@ -1,9 +1,12 @@
 """README's words from Python run as they stand."""
 
+import os
 import re
 import subprocess
 import sys
 from pathlib import Path
+
+from atlas_cueing.cueing import DEFAULT_METHOD, METHODS
 
 ROOT = Path(__file__).parents[1]
 
@@ -26,3 +29,35 @@ def test_links_lead_somewhere() -> None:
         if ".venv" not in file.parts:
             for target in re.findall(r"\]\(([^)#:]+)\)", file.read_text()):
                 assert (file.parent / target).exists(), f"{file}: {target}"
+
+
+def rows(readme: str, heading: str) -> list[str]:
+    """First cells of the table of a README that has this heading."""
+    text = (ROOT / readme).read_text()
+    table = text[text.index(f"| {heading} |") :].split("\n\n")[0]
+    return [line.split("|")[1].strip() for line in table.splitlines()[2:]]
+
+
+def test_table_of_methods() -> None:
+    listed = [cell.removesuffix(" (default)").strip("`") for cell in rows("README.md", "method")]
+    assert set(listed) == set(METHODS)
+    (default,) = (cell for cell in rows("README.md", "method") if cell.endswith("(default)"))
+    assert default.removesuffix(" (default)").strip("`") == DEFAULT_METHOD
+
+
+def test_table_of_tools() -> None:
+    text = (ROOT / "tools/README.md").read_text()
+    tools = {path.name for path in (ROOT / "tools").iterdir() if os.access(path, os.X_OK)}
+    for tool in (path for path in tools if (ROOT / "tools" / path).is_file()):
+        assert re.search(rf"`(tools/)?{tool}`", text), tool
+    for cell in rows("tools/README.md", "tool"):
+        assert (ROOT / cell.strip("`")).is_file()
+
+
+def test_table_of_scenarios() -> None:
+    text = (ROOT / "scenarios/README.md").read_text()
+    listed = re.findall(r"^\| \[(.*)\]\(\1\.toml\)", text, re.MULTILINE)
+    folder = ROOT / "scenarios"
+    assert sorted(listed) == sorted(
+        str(path.relative_to(folder).with_suffix("")) for path in folder.glob("**/*.toml")
+    )

@@ -54,17 +54,16 @@ def on_cluster(
 def _fly(client: Any, todo: Iterable[Job], stop: Stop) -> Iterator[JobResult]:
     from distributed import as_completed
 
-    orders = iter(todo)
-
+    jobs = iter(todo)
     known: dict[str, Job] = {}
 
     def submit(count: int) -> list[Any]:
-        """Hand the next orders, `count` at most, to the scheduler; gives their futures."""
-        batch = list(islice(orders, count))
-        known.update({order.id: order for order in batch})
+        """Submit the next jobs, `count` at most, and return their futures."""
+        batch = list(islice(jobs, count))
+        known.update({job.id: job for job in batch})
         # The key makes a run that is under way for a driver that was killed be waited for instead
         # of flown twice.
-        return [client.submit(fly_order, order, key=order.id, retries=0) for order in batch]
+        return [client.submit(fly_job, job, key=job.id, retries=0) for job in batch]
 
     waiting = as_completed(submit(_UNDER_WAY))
     while waiting.count() and not stop():
@@ -72,37 +71,37 @@ def _fly(client: Any, todo: Iterable[Job], stop: Stop) -> Iterator[JobResult]:
             sleep(_PATIENCE)
             continue
         for future in waiting.next_batch(block=True):
-            record = _record(future, known.pop(future.key))
+            result = _result(future, known.pop(future.key))
             waiting.update(submit(1))
-            yield record
+            yield result
 
 
-def _record(future: Any, order: Job) -> JobResult:
+def _result(future: Any, job: Job) -> JobResult:
     if future.status == "finished":
-        record: JobResult = future.result()
-        return record
+        result: JobResult = future.result()
+        return result
     if future.status == "cancelled":
-        return JobResult("worker_lost", "the cluster gave it up", id=order.id)
+        return JobResult("worker_lost", "the cluster cancelled it", id=job.id)
     error = future.exception()
     if type(error).__name__ == "KilledWorker":
-        return lost(order)
+        return lost(job)
     reason = f"the cluster's worker cannot fly it: {type(error).__name__}: {error}"
-    return JobResult("worker_differs", reason, id=order.id)
+    return JobResult("worker_differs", reason, id=job.id)
 
 
-def fly_order(order: Job) -> JobResult:
-    """On a dask worker: fly the order in the worker process of this thread."""
+def fly_job(job: Job) -> JobResult:
+    """Fly the job on a dask worker, in the worker process of this thread."""
     for _ in range(ATTEMPTS):
         worker: Worker | None = getattr(_own, "worker", None)
         if worker is None:
             worker = _own.worker = Worker()
-        worker.submit(order)
-        record = worker.receive()
-        if record:
-            return record
+        worker.submit(job)
+        result = worker.receive()
+        if result:
+            return result
         worker.close()
         _own.worker = None
-    return lost(order)
+    return lost(job)
 
 
 @contextmanager

@@ -17,37 +17,37 @@ Tell: TypeAlias = Callable[[JobResult], None]
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """A planned run and what came of it; `record` is None when it was not flown any more."""
+    """A planned run and its result; `result` is None when it was not flown any more."""
 
     run: PlannedRun
-    record: JobResult | None
+    result: JobResult | None
 
 
 def missing(
-    runs: Sequence[PlannedRun], results: ResultStore, *, retry: bool = False
+    runs: Sequence[PlannedRun], store: ResultStore, *, retry: bool = False
 ) -> list[PlannedRun]:
-    """Runs without a final record there, the longest first.
+    """Return the runs without a final result there, the longest first.
 
     With `retry` also those that had to be killed.
     """
-    return _todo(runs, _done(runs, results, retry))
+    return _todo(runs, _done(runs, store, retry))
 
 
-def _done(runs: Sequence[PlannedRun], results: ResultStore, retry: bool) -> dict[str, JobResult]:
-    found = kept([run.id for run in runs], results)
+def _done(runs: Sequence[PlannedRun], store: ResultStore, retry: bool) -> dict[str, JobResult]:
+    found = kept([run.id for run in runs], store)
     return {
-        name: record for name, record in found.items() if not (retry and record.result in KILLED)
+        name: result for name, result in found.items() if not (retry and result.result in KILLED)
     }
 
 
 def _todo(runs: Sequence[PlannedRun], done: Mapping[str, JobResult]) -> list[PlannedRun]:
-    # A long one that begins last keeps everybody waiting.
+    # the longest first: one that begins last would run alone at the end
     return sorted((run for run in runs if run.id not in done), key=lambda run: -run.ticks)
 
 
 def fly_batch(
     runs: Sequence[PlannedRun],
-    results: ResultStore,
+    store: ResultStore,
     fly: Fly,
     limits: RunLimits,
     *,
@@ -55,17 +55,15 @@ def fly_batch(
     tell: Tell = lambda _: None,
     stop: Stop = lambda: False,
 ) -> list[Outcome]:
-    """Fly what is missing in `results`, and give what came of every run, in the order of `runs`.
+    """Fly what is missing in `store`, and return the outcome of every run, in the order of `runs`.
 
-    A log and its record are each complete or not there, so a batch that is killed loses the runs
-    under way and nothing else. `tell` is called with each record as it comes. Raises OutputError
+    A log and its result are each complete or not there, so a batch that is killed loses the runs
+    under way and nothing else. `tell` is called with each result as it comes. Raises OutputError
     when the place cannot be used.
     """
-    with results.opened():
-        records = _done(runs, results, retry)
-        for record in fly(
-            (Job.of(run, results.place, limits) for run in _todo(runs, records)), stop
-        ):
-            records[record.id] = record
-            tell(record)
-        return [Outcome(run, records.get(run.id)) for run in runs]
+    with store.opened():
+        done = _done(runs, store, retry)
+        for result in fly((Job.of(run, store.place, limits) for run in _todo(runs, done)), stop):
+            done[result.id] = result
+            tell(result)
+        return [Outcome(run, done.get(run.id)) for run in runs]

@@ -12,26 +12,27 @@ from typing import BinaryIO
 
 _PIECE = 65536  # bytes read at a time
 _TAIL = 300  # characters of what a child printed last
-_STDIN = 0  # whoever holds its other end wants the child; when it ends, nobody does
+_STDIN = 0  # its other end is held by the driver; when it ends, the child is not wanted any more
 _PARENT_DEATH = 1  # PR_SET_PDEATHSIG of Linux's prctl
 
 
 @dataclass(frozen=True, slots=True)
 class ChildExit:
-    """What became of a child process.
+    """How a child process ended.
 
-    Its answer, its exit status (a signal's number below zero), and what it printed last.
-
-    late: it was killed at its time limit.
+    answer: what its work returned.
+    status: its exit status; the number of a signal, below zero.
+    printed: the end of what it printed.
+    late: whether it was killed at its time limit.
     """
 
-    told: bytes
+    answer: bytes
     status: int
     printed: str
     late: bool
 
     def how(self) -> str:
-        """The end in words."""
+        """Return a phrase that says how it ended."""
         how = (
             f"ended by {signal.Signals(-self.status).name}"
             if self.status < 0
@@ -41,13 +42,13 @@ class ChildExit:
 
 
 def in_child(work: Callable[[], bytes], limit: float) -> ChildExit:
-    """Fork, and give what `work` told there.
+    """Call `work` in a forked process, and return how that ended.
 
-    It is killed after `limit` s of wall time, and dies with this process (on Linux).
+    The child is killed after `limit` s of wall time, and dies with this process (on Linux).
 
     To be called in a process without threads, which a fork would catch in mid-step; `work` may
-    start some. Raises EOFError when this process's stdin ends meanwhile: the child is killed, as
-    nobody waits for it any more.
+    start some. Raises EOFError when this process's stdin ends meanwhile: the child is killed, since
+    its driver has ended.
     """
     with tempfile.TemporaryFile() as printed:
         reading, writing = os.pipe()
@@ -56,42 +57,42 @@ def in_child(work: Callable[[], bytes], limit: float) -> ChildExit:
             os.close(reading)
             _work_and_exit(work, writing, printed)
         os.close(writing)
-        told = None
+        answer = None
         try:
-            told = _listen(reading, monotonic() + limit)
+            answer = _listen(reading, monotonic() + limit)
         finally:
             os.close(reading)
-            if told is None:
+            if answer is None:
                 os.kill(child, signal.SIGKILL)
             _, status = os.waitpid(child, 0)
         printed.seek(0)
         last = " ".join(printed.read().decode(errors="replace").split())[-_TAIL:]
-    return ChildExit(told or b"", os.waitstatus_to_exitcode(status), last, late=told is None)
+    return ChildExit(answer or b"", os.waitstatus_to_exitcode(status), last, late=answer is None)
 
 
 def linger(time: float) -> None:
     """Wait `time` s. Raises EOFError when this process's stdin ends meanwhile."""
     if select([_STDIN], [], [], time)[0]:
-        raise EOFError("nobody waits any more")
+        raise EOFError("the driver has ended")
 
 
 def _listen(reading: int, deadline: float) -> bytes | None:
-    """What the child tells until it ends; None when that is later than the deadline."""
-    told = bytearray()
+    """Return what the child writes until it ends; None when that is later than the deadline."""
+    answer = bytearray()
     while (left := deadline - monotonic()) > 0.0:
         ready, _, _ = select([reading, _STDIN], [], [], left)
         if reading in ready:
             piece = os.read(reading, _PIECE)
             if not piece:
-                return bytes(told)
-            told += piece
+                return bytes(answer)
+            answer += piece
         elif ready:
-            raise EOFError("nobody waits for the child any more")
+            raise EOFError("the driver has ended")
     return None
 
 
 def _work_and_exit(work: Callable[[], bytes], writing: int, printed: BinaryIO) -> None:
-    """The child: never returns."""
+    """Call `work` in the child, write its answer, and exit."""
     status = 1
     try:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
@@ -100,9 +101,9 @@ def _work_and_exit(work: Callable[[], bytes], writing: int, printed: BinaryIO) -
             os.dup2(nothing.fileno(), _STDIN)
         os.dup2(printed.fileno(), 1)
         os.dup2(printed.fileno(), 2)
-        told = work()
-        while told:
-            told = told[os.write(writing, told) :]
+        answer = work()
+        while answer:
+            answer = answer[os.write(writing, answer) :]
         status = 0
     except BaseException as error:  # noqa: BLE001 - the parent's code must not go on in the child
         os.write(2, f"{type(error).__name__}: {error}".encode())

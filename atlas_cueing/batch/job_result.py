@@ -39,7 +39,7 @@ class JobResult(RunResult):
         return self.result in FINAL
 
     def to_json(self) -> dict[str, Any]:
-        """Return everything by name; a figure that is not finite is None, for JSON has no word."""
+        """Return everything by name; a figure that is not finite is None, as JSON has none."""
         # not super(): slots make a new class, which it does not find
         table = {"id": self.id, **RunResult.to_json(self)}
         return table | {name: _finite(getattr(self.evaluation, name)) for name in _FIGURES}
@@ -71,45 +71,42 @@ def _number(value: Any) -> float:
     return nan if value is None else float(value)
 
 
-def keep(record: JobResult, workdir: Path) -> None:
-    """Write the record beside its log, complete or not at all."""
+def keep(result: JobResult, workdir: Path) -> None:
+    """Write the result beside its log, complete or not at all."""
     write_whole(
-        workdir / f"{record.id}.json", json.dumps(record.to_json(), indent=1, allow_nan=False)
+        workdir / f"{result.id}.json", json.dumps(result.to_json(), indent=1, allow_nan=False)
     )
 
 
-def kept(runs: Collection[str], results: ResultStore) -> dict[str, JobResult]:
-    """Records by id of those runs that need no flying again.
-
-    Whose record is there and sound, and whose log is there.
-    """
-    there = results.names()
-    read = results.read(name for name in (f"{run}.json" for run in runs) if name in there)
-    records = {
+def kept(runs: Collection[str], store: ResultStore) -> dict[str, JobResult]:
+    """Return the results, by run id, that are complete: with a sound file and their log."""
+    there = store.names()
+    read = store.read(name for name in (f"{run}.json" for run in runs) if name in there)
+    found = {
         run: _sound(run, read[f"{run}.json"], there.__contains__)
         for run in runs
         if f"{run}.json" in read
     }
-    return {run: record for run, record in records.items() if record}
+    return {run: result for run, result in found.items() if result}
 
 
-def done_by_another(run: str, results: ResultStore) -> JobResult | None:
+def done_by_another(run: str, store: ResultStore) -> JobResult | None:
     """Read the result of a run that is kept, as `kept` finds it.
 
-    Runs that had to be killed are left out: whoever orders them wants them again.
+    Runs that had to be killed are left out: they are submitted only to be flown again.
     """
-    content = results.read([f"{run}.json"]).get(f"{run}.json", b"")
-    record = _sound(run, content, results.has)
-    return record if record and record.result not in KILLED else None
+    content = store.read([f"{run}.json"]).get(f"{run}.json", b"")
+    result = _sound(run, content, store.has)
+    return result if result and result.result not in KILLED else None
 
 
 def _sound(run: str, content: bytes, has: Callable[[str], bool]) -> JobResult | None:
     try:
-        record = JobResult.from_json(json.loads(content))
+        result = JobResult.from_json(json.loads(content))
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return None
     return (
-        record
-        if record.id == run and record.final and (not record.log or has(str(record.log)))
+        result
+        if result.id == run and result.final and (not result.log or has(str(result.log)))
         else None
     )

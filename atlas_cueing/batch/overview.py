@@ -33,7 +33,7 @@ def overview(
 
     settings: the swept keys, shown where they differ; metrics: names of the metrics shown, of which
     the first, by which `table` is sorted, is also in the heat map; files: names of the files beside
-    the page. Every run links to its log, its record and, where there is one, its review (`<run
+    the page. Every run links to its log, its result and, where there is one, its review (`<run
     id>.html`). Angles are in degrees and shares in percent; a head's tooltip is the name of its
     metric or key, and the metric's definition.
     """

@@ -25,7 +25,7 @@ _SINGLE = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 
 
 class Worker:
-    """A worker process: one order at a time; closing it kills the run under way."""
+    """A worker process: it flies one job at a time; closing it kills the run under way."""
 
     def __init__(self) -> None:
         self._process = subprocess.Popen(  # noqa: S603 - our own module
@@ -37,34 +37,34 @@ class Worker:
         )
         # Pipes, as asked for
         assert self._process.stdin and self._process.stdout  # noqa: S101, PT018
-        self._orders, self._records = self._process.stdin, self._process.stdout
-        self.order: Job | None = None
-        self.losses = 0  # times that the present order lost a worker
+        self._jobs, self._results = self._process.stdin, self._process.stdout
+        self.job: Job | None = None
+        self.losses = 0  # times that the present job lost a worker
 
     def fileno(self) -> int:
-        """Readable when there is a record to receive."""
-        return self._records.fileno()
+        """Return the file descriptor that is readable when a result can be received."""
+        return self._results.fileno()
 
     @property
     def pid(self) -> int:
-        """The process."""
+        """Return the number of the process."""
         return self._process.pid
 
-    def submit(self, order: Job, losses: int = 0) -> None:
-        """Begin a run."""
-        self.order, self.losses = order, losses
+    def submit(self, job: Job, losses: int = 0) -> None:
+        """Start to fly a job that has already lost `losses` workers."""
+        self.job, self.losses = job, losses
         with suppress(OSError):  # it is gone, and `receive` will say so
-            self._orders.write(order.to_line())
-            self._orders.flush()
+            self._jobs.write(job.to_line())
+            self._jobs.flush()
 
     def receive(self) -> JobResult | None:
-        """Wait for the record of the run; None when the worker died."""
-        line = self._records.readline()
+        """Wait for the result of the job; None when the worker died."""
+        line = self._results.readline()
         return JobResult.from_json(json.loads(line)) if line.endswith(b"\n") else None
 
     def close(self) -> None:
         """End the process, and the run under way with it."""
-        for pipe in (self._orders, self._records):
+        for pipe in (self._jobs, self._results):
             with suppress(OSError):
                 pipe.close()
         try:
@@ -85,50 +85,50 @@ class Worker:
         self.close()
 
 
-def fly_here(orders: Iterable[Job], jobs: int, stop: Stop = lambda: False) -> Iterator[JobResult]:
-    """Fly the orders in `jobs` worker processes; records as they come.
+def fly_here(todo: Iterable[Job], workers: int, stop: Stop = lambda: False) -> Iterator[JobResult]:
+    """Fly the jobs in `workers` processes, and yield results as they come.
 
     Once `stop` is true, runs under way are killed.
 
     A run that loses its worker is begun again with a new one, and given up as `worker_lost` when
     that is lost, too.
     """
-    crew = _Crew(orders)
+    crew = _Crew(todo)
     try:
-        for _ in range(jobs):
+        for _ in range(workers):
             crew.hire()
         while crew.busy and not stop():
-            yield from crew.records()
+            yield from crew.results()
     finally:
         crew.dismiss()
 
 
 class _Crew:
-    """Workers, all of them busy, and the orders that are left."""
+    """Workers, all of them busy, and the jobs that are left."""
 
-    def __init__(self, orders: Iterable[Job]) -> None:
-        self._todo = iter(orders)
+    def __init__(self, todo: Iterable[Job]) -> None:
+        self._todo = iter(todo)
         self._selector = DefaultSelector()
 
     @property
     def busy(self) -> bool:
-        """Somebody is at work."""
+        """Whether a worker is flying a job."""
         return bool(self._selector.get_map())
 
     def hire(self) -> None:
-        """A new worker for the next order, if there is one."""
-        order = next(self._todo, None)
-        if order:
-            self._begin(order, 0)
+        """Start a new worker with the next job, if there is one."""
+        job = next(self._todo, None)
+        if job:
+            self._begin(job, 0)
 
-    def records(self) -> Iterator[JobResult]:
-        """What is ready within a moment; whoever is done goes on with the next order."""
+    def results(self) -> Iterator[JobResult]:
+        """Yield the results that come within a moment, and give those workers the next job."""
         for key, _ in self._selector.select(_PATIENCE):
             worker: Worker = key.data
-            record = worker.receive()
-            if record:
+            result = worker.receive()
+            if result:
                 self._go_on(worker)
-                yield record
+                yield result
             else:
                 yield from self._replace(worker)
 
@@ -138,33 +138,33 @@ class _Crew:
             self._drop(key.data)
         self._selector.close()
 
-    def _begin(self, order: Job, losses: int) -> None:
+    def _begin(self, job: Job, losses: int) -> None:
         worker = Worker()
         self._selector.register(worker, EVENT_READ, worker)
-        worker.submit(order, losses)
+        worker.submit(job, losses)
 
     def _go_on(self, worker: Worker) -> None:
-        order = next(self._todo, None)
-        if order:
-            worker.submit(order)
+        job = next(self._todo, None)
+        if job:
+            worker.submit(job)
         else:
             self._drop(worker)
 
     def _replace(self, worker: Worker) -> Iterator[JobResult]:
         """Begin the run of a dead worker again, or give it up."""
         self._drop(worker)
-        if worker.order and worker.losses + 1 < ATTEMPTS:
-            self._begin(worker.order, worker.losses + 1)
-        elif worker.order:
+        if worker.job and worker.losses + 1 < ATTEMPTS:
+            self._begin(worker.job, worker.losses + 1)
+        elif worker.job:
             self.hire()
-            yield lost(worker.order)
+            yield lost(worker.job)
 
     def _drop(self, worker: Worker) -> None:
         self._selector.unregister(worker)
         worker.close()
 
 
-def lost(order: Job) -> JobResult:
-    """The record of a run that lost its worker too often."""
+def lost(job: Job) -> JobResult:
+    """Return the result of a job that lost its worker too often."""
     reason = f"its worker process died {ATTEMPTS} times while flying it"
-    return JobResult("worker_lost", reason, id=order.id)
+    return JobResult("worker_lost", reason, id=job.id)

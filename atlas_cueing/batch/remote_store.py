@@ -145,8 +145,8 @@ class RemoteStore:
             raise OutputError(f"{self.where()}: upload not over after {UPLOAD_LIMIT:g} s")
         if ended.status != 0:
             raise OutputError(f"{self.where()}: upload {ended.how()}")
-        if ended.told:
-            raise OutputError(ended.told.decode())
+        if ended.answer:
+            raise OutputError(ended.answer.decode())
 
     def fetch(self, name: str, scratch: Path) -> Path:
         """The file, downloaded into `scratch`."""

@@ -34,7 +34,7 @@ def rows(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
 
 
 def _row(outcome: Outcome) -> dict[str, Any]:
-    run, record = outcome.run, outcome.record
+    run, result = outcome.run, outcome.result
     file = run.scenario.file
     what = {
         "run": run.id,
@@ -45,17 +45,17 @@ def _row(outcome: Outcome) -> dict[str, Any]:
         "platform": run.scenario.platform.name,
         **run.settings,
     }
-    if record is None:
+    if result is None:
         return {**what, "result": NOT_FLOWN}
     came = {
-        "result": record.result,
-        "reason": record.reason,
-        "log": str(record.log or ""),
-        "wall_s": record.wall,
+        "result": result.result,
+        "reason": result.reason,
+        "log": str(result.log or ""),
+        "wall_s": result.wall,
     }
-    figures = {**record.evaluation.metrics, "ticks": record.ticks, "duration_s": record.duration}
-    use = {f"limit_use_{name}": value for name, value in record.evaluation.limit_use.items()}
-    return {**what, **came, "violations": len(record.evaluation.violations), **figures, **use}
+    figures = {**result.evaluation.metrics, "ticks": result.ticks, "duration_s": result.duration}
+    use = {f"limit_use_{name}": value for name, value in result.evaluation.limit_use.items()}
+    return {**what, **came, "violations": len(result.evaluation.violations), **figures, **use}
 
 
 def ordered(table: Sequence[Row], metric: str) -> list[Row]:

@@ -2,10 +2,10 @@
 
 It is started as `python -m atlas_cueing.batch.worker_main`.
 
-Orders come in on stdin, a line each, and records go out on stdout, a line each. A run costs a fork
-instead of an interpreter with its libraries, and takes nothing with it when it crashes, hangs or
-eats memory. When stdin ends, the run under way is
-killed: a driver that is gone leaves nothing behind.
+Jobs come in on stdin, a line each, and results go out on stdout, a line each. A run costs a fork
+instead of an interpreter with its libraries, and harms no other run when it crashes, hangs or uses
+up memory. When stdin ends, the run under way is killed: a driver that has ended leaves nothing
+behind.
 """
 
 import gc
@@ -30,77 +30,76 @@ from .store import ResultStore, open_store
 def main() -> None:
     """Serve until stdin ends."""
     replies = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # whatever a library prints must not get among the records
+    os.dup2(2, 1)  # what a library prints must not get among the results
     gc.collect()
     gc.freeze()  # so that children do not copy what they never change
     with suppress(EOFError):
         while line := sys.stdin.buffer.readline():
-            record = isolated(Job.from_line(line))
-            replies.write(json.dumps(record.to_json()).encode() + b"\n")
+            result = isolated(Job.from_line(line))
+            replies.write(json.dumps(result.to_json()).encode() + b"\n")
             replies.flush()
 
 
-def isolated(order: Job) -> JobResult:
-    """Fly the order in a child, and deliver its log and record.
+def isolated(job: Job) -> JobResult:
+    """Fly the job in a child process, and deliver its log and result.
 
-    One that died gets a record that says how.
-
-    A run that was done meanwhile is not flown again: a cluster may order it twice when it loses a
-    worker or the driver. Raises EOFError when stdin ends meanwhile.
+    The result of a child that died says how it died. A job that has been done meanwhile is not
+    flown again: a cluster may submit it twice when it loses a worker or the driver. Raises
+    EOFError when stdin ends meanwhile.
     """
-    results = open_store(order.place)
+    store = open_store(job.place)
     try:
         # What a killed child leaves in `scratch` goes with it.
         with (
-            results.claimed(order.id),
+            store.claimed(job.id),
             tempfile.TemporaryDirectory(prefix="atlas_cueing_") as scratch,
         ):
-            return _flown(order, results, Path(scratch))
+            return _flown(job, store, Path(scratch))
     except (OSError, OutputError) as error:
-        return JobResult("recording_failed", f"{order.id}: {error}", id=order.id)
+        return JobResult("recording_failed", f"{job.id}: {error}", id=job.id)
 
 
-def _flown(order: Job, results: ResultStore, scratch: Path) -> JobResult:
-    workdir = results.workdir(scratch)
+def _flown(job: Job, store: ResultStore, scratch: Path) -> JobResult:
+    workdir = store.workdir(scratch)
 
     def work() -> bytes:
-        """The flight, as the child tells it."""
+        """Return whether the job was flown now, and its result, as JSON."""
         tempfile.tempdir = str(scratch)
-        confine(order.limits.memory)
-        done = done_by_another(order.id, results)
-        return json.dumps([done is None, (done or fly_alone(order, workdir)).to_json()]).encode()
+        confine(job.limits.memory)
+        done = done_by_another(job.id, store)
+        return json.dumps([done is None, (done or fly_alone(job, workdir)).to_json()]).encode()
 
     begun = monotonic()
-    ended = in_child(work, order.limits.time)
-    if ended.told and not ended.late:
-        new, told = json.loads(ended.told)
-        record = JobResult.from_json(told)
+    ended = in_child(work, job.limits.time)
+    if ended.answer and not ended.late:
+        new, table = json.loads(ended.answer)
+        result = JobResult.from_json(table)
     else:
-        result, reason = _cause(order, ended)
-        log, wall, new = left_by(order, workdir), monotonic() - begun, True
-        record = JobResult(result, reason, log, wall=wall, id=order.id)
-    if new and record.final:
-        _deliver(record, workdir, results)
-    return record
+        cause, reason = _cause(job, ended)
+        log, wall, new = left_by(job, workdir), monotonic() - begun, True
+        result = JobResult(cause, reason, log, wall=wall, id=job.id)
+    if new and result.final:
+        _deliver(result, workdir, store)
+    return result
 
 
-def _cause(order: Job, ended: ChildExit) -> tuple[str, str]:
-    """Result and reason of a child that ended without a word."""
+def _cause(job: Job, ended: ChildExit) -> tuple[str, str]:
+    """Return result and reason of a job whose child process ended without an answer."""
     if ended.late:
-        return "timed_out", f"not over after {order.limits.time:g} s"
+        return "timed_out", f"not over after {job.limits.time:g} s"
     if "bad_alloc" in ended.printed or "MemoryError" in ended.printed:
         return (
             "out_of_memory",
-            f"needs more than {order.limits.memory:g} GB: {ended.how().split(':')[0]}",
+            f"needs more than {job.limits.memory:g} GB: {ended.how().split(':')[0]}",
         )
     return "crashed", ended.how()
 
 
-def _deliver(record: JobResult, workdir: Path, results: ResultStore) -> None:
-    """Log and record to where they belong. Raises OSError or OutputError."""
-    keep(record, workdir)
-    # the record says that all is there
-    results.deliver(workdir, [str(name) for name in (record.log, f"{record.id}.json") if name])
+def _deliver(result: JobResult, workdir: Path, store: ResultStore) -> None:
+    """Move log and result to the store. Raises OSError or OutputError."""
+    keep(result, workdir)
+    # the result comes last: it says that the log is complete
+    store.deliver(workdir, [str(name) for name in (result.log, f"{result.id}.json") if name])
 
 
 if __name__ == "__main__":

@@ -73,7 +73,7 @@ def batch_command(
             "-o",
             "--output",
             metavar="FOLDER|URL",
-            help="Where logs, records and table go; URL: file://, s3://...",
+            help="Where logs, results and table go; URL: file://, s3://...",
         ),
     ],
     jobs: Annotated[

@@ -35,18 +35,18 @@ def write_reviews(outcomes: "Sequence[Outcome]", results: "ResultStore") -> None
     from ..review.report import write_page
 
     there = results.names()
-    for record in (outcome.record for outcome in outcomes if outcome.record):
-        log = str(record.log or "")
-        if not log.endswith(".mcap") or f"{record.id}.html" in there:
+    for result in (outcome.result for outcome in outcomes if outcome.result):
+        log = str(result.log or "")
+        if not log.endswith(".mcap") or f"{result.id}.html" in there:
             continue
         with TemporaryDirectory(prefix="atlas_cueing_") as scratch:
             page = Path(scratch) / "page.html"
             try:
                 write_page(review_log(results.fetch(log, Path(scratch))), page)
             except LogError as error:
-                say(f"{record.id}: no review: {error}")
+                say(f"{result.id}: no review: {error}")
             else:
-                results.write(f"{record.id}.html", page.read_bytes())
+                results.write(f"{result.id}.html", page.read_bytes())
 
 
 def check_plotly() -> None:

@@ -28,13 +28,13 @@ class Count:
         self._worked = 0
         self._begun = perf_counter()
 
-    def add(self, record: "JobResult") -> None:
+    def add(self, result: "JobResult") -> None:
         """One more run."""
         self.done += 1
-        self.failed += not record.clean
-        self._flown += record.duration
-        self._worked += record.ticks
-        self._left -= self._ticks.get(record.id, 0.0)
+        self.failed += not result.clean
+        self._flown += result.duration
+        self._worked += result.ticks
+        self._left -= self._ticks.get(result.id, 0.0)
 
     @property
     def wall(self) -> float:
@@ -65,14 +65,14 @@ def spoken(time: float) -> str:
 
 @contextmanager
 def batch_progress(runs: "Sequence[PlannedRun]") -> "Iterator[Callable[[JobResult], None]]":
-    """A function to call with each record as it comes."""
+    """Yield a function to call with each result as it comes."""
     count = Count(runs)
     show = _bar if sys.stderr.isatty() else _lines
     with show(count) as update:
 
-        def tell(record: "JobResult") -> None:
+        def tell(result: "JobResult") -> None:
             """Count one more run, and show it."""
-            count.add(record)
+            count.add(result)
             update()
 
         yield tell

@@ -117,7 +117,7 @@ def end(outcomes: "Sequence[Outcome]", *, stopped: bool) -> None:
         say(line)
     if len(findings) > _SHOWN_FINDINGS:
         say(f"and {len(findings) - _SHOWN_FINDINGS} more; summary.csv has all")
-    left = sum(outcome.record is None or not outcome.record.final for outcome in outcomes)
+    left = sum(outcome.result is None or not outcome.result.final for outcome in outcomes)
     if left:
         again = f"not done; the same command flies {'it' if left == 1 else 'them'}"
         say(f"{'stopped: ' if stopped else ''}{_runs(left)} {again}")
@@ -126,8 +126,8 @@ def end(outcomes: "Sequence[Outcome]", *, stopped: bool) -> None:
 
 
 def _findings(outcome: "Outcome") -> list[str]:
-    record = outcome.record
-    if record is None or record.clean:
+    result = outcome.result
+    if result is None or result.clean:
         return []
-    failed = [f"{record.id}: {record.result}: {record.reason}"] if record.result != "ok" else []
-    return failed + [f"{record.id}: {violation}" for violation in record.evaluation.violations]
+    failed = [f"{result.id}: {result.result}: {result.reason}"] if result.result != "ok" else []
+    return failed + [f"{result.id}: {violation}" for violation in result.evaluation.violations]

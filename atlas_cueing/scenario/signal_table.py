@@ -9,7 +9,7 @@ from pydantic import BeforeValidator, model_validator
 
 from ..errors import InputError
 from ..vehicles import Signal, SignalFlight
-from ..vehicles.signal_vehicle import DEFAULT_RAMP, FORCE_AXES, RATE_AXES, SHAPES, Shape, SignalAxis
+from ..vehicles.signal_shapes import DEFAULT_RAMP, FORCE_AXES, RATE_AXES, SHAPES, Shape, SignalAxis
 from .mistakes import Key
 from .source_table import SourceTable, tables
 from .tables import ScenarioTable, number, object_to, refuse

@@ -15,7 +15,8 @@ from .jsbsim.library import own_aircraft, own_scripts, suggestion
 from .jsbsim.loading import input_objections
 from .limited_duration import LimitedDuration
 from .recorded_vehicle import RecordedVehicle
-from .signal_vehicle import Signal, SignalFlight, SignalVehicle
+from .signal_shapes import Signal
+from .signal_vehicle import SignalFlight, SignalVehicle
 
 __all__ = [
     "AircraftFlight",

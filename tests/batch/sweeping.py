@@ -32,10 +32,10 @@ from pathlib import Path
 from atlas_cueing.batch import execute as alone
 from atlas_cueing.batch import worker_main as worker
 fly = worker.fly_alone
-def sabotaged(order, workdir):
-    if "-attitude-" in order.id:
+def sabotaged(job, workdir):
+    if "-attitude-" in job.id:
         {deed}
-    return fly(order, workdir)
+    return fly(job, workdir)
 worker.fly_alone = sabotaged
 worker.main()
 """
@@ -47,23 +47,23 @@ def planned(folder: Path, *overrides: str, text: str = SWEEP) -> list[PlannedRun
     return plan([folder / "sweep.toml"], overrides)
 
 
-def order(run: PlannedRun, place: Path | str, limits: RunLimits = LIMITS) -> Job:
+def job_of(run: PlannedRun, place: Path | str, limits: RunLimits = LIMITS) -> Job:
     """To fly `run` into a folder or to a URL."""
     return Job.of(run, str(place), limits)
 
 
-def fly_in_line(orders: Iterable[Job], stop: Callable[[], bool]) -> Iterator[JobResult]:
+def fly_in_line(jobs: Iterable[Job], stop: Callable[[], bool]) -> Iterator[JobResult]:
     """The seam's plainest double: into folders, in this process, one after the other."""
-    for each in orders:
+    for job in jobs:
         if stop():
             return
-        record = fly_alone(each, Path(each.place))
-        keep(record, Path(each.place))
-        yield record
+        result = fly_alone(job, Path(job.place))
+        keep(result, Path(job.place))
+        yield result
 
 
 def kept_in(place: Path | str, run: str) -> JobResult | None:
-    """The record that a batch would find there."""
+    """The result that a batch would find there."""
     return kept([run], open_store(str(place))).get(run)
 
 

@@ -14,11 +14,11 @@ import pytest
 
 from atlas_cueing.batch import cluster as cluster_module
 from atlas_cueing.batch import fly_batch, fly_here, on_cluster
-from atlas_cueing.batch.cluster import LOCAL, fly_order
+from atlas_cueing.batch.cluster import LOCAL, fly_job
 from atlas_cueing.batch.folder_store import FolderStore
 from atlas_cueing.errors import InputError
 
-from .sweeping import LIMITS, order, planned
+from .sweeping import LIMITS, job_of, planned
 from .test_fly_batch import hashes
 
 
@@ -41,7 +41,7 @@ def test_the_same_bytes_as_without_a_cluster(tmp_path: Path, address: str) -> No
     runs = planned(tmp_path)
     with on_cluster(address, 2) as fly:
         outcomes = fly_batch(runs, FolderStore(tmp_path / "cluster"), fly, LIMITS)
-    assert all(outcome.record and outcome.record.clean for outcome in outcomes)
+    assert all(outcome.result and outcome.result.clean for outcome in outcomes)
     fly_batch(
         runs, FolderStore(tmp_path / "here"), lambda orders, stop: fly_here(orders, 1, stop), LIMITS
     )
@@ -56,13 +56,13 @@ def test_more_runs_than_the_scheduler_is_told_of_at_a_time(
     runs = planned(tmp_path)
     with on_cluster(address, 2) as fly:
         assert {
-            record.id for record in fly((order(run, tmp_path) for run in runs), lambda: False)
+            result.id for result in fly((job_of(run, tmp_path) for run in runs), lambda: False)
         } == {run.id for run in runs}
 
 
 def test_stopping_begins_nothing_more(tmp_path: Path, address: str) -> None:
     with on_cluster(address, 2) as fly:
-        assert list(fly([order(run, tmp_path) for run in planned(tmp_path)], lambda: True)) == []
+        assert list(fly([job_of(run, tmp_path) for run in planned(tmp_path)], lambda: True)) == []
 
 
 def test_a_killed_dask_worker_costs_its_run_a_second_try(tmp_path: Path, address: str) -> None:
@@ -81,9 +81,9 @@ def test_a_killed_dask_worker_costs_its_run_a_second_try(tmp_path: Path, address
     killer = threading.Thread(target=kill)
     killer.start()
     with on_cluster(address, 2) as fly:
-        records = list(fly([order(run, tmp_path) for run in runs], lambda: False))
+        results = list(fly([job_of(run, tmp_path) for run in runs], lambda: False))
     killer.join()
-    assert [record.result for record in records] == ["ok", "ok"]
+    assert [result.result for result in results] == ["ok", "ok"]
 
 
 def test_a_cluster_of_ones_own_listens_on_the_loopback_only() -> None:
@@ -105,15 +105,15 @@ def test_a_run_done_before_its_worker_was_lost_is_not_flown_again(
 ) -> None:
     """The scheduler recomputes results that only the lost worker had.
 
-    The record that is there answers instead.
+    The result that is there answers instead.
     """
     run = planned(tmp_path)[0]
     with on_cluster(address, 2) as fly:
-        (first,) = fly([order(run, tmp_path)], lambda: False)
+        (first,) = fly([job_of(run, tmp_path)], lambda: False)
     log = tmp_path / first.log
     before = (log.stat().st_ino, log.stat().st_mtime_ns)
     with on_cluster(address, 2) as fly:
-        assert list(fly([order(run, tmp_path)], lambda: False)) == [first]
+        assert list(fly([job_of(run, tmp_path)], lambda: False)) == [first]
     assert (log.stat().st_ino, log.stat().st_mtime_ns) == before
 
 
@@ -150,16 +150,16 @@ class KilledWorker(Exception):  # noqa: N818 - distributed's name
 def test_what_a_cluster_may_say_instead(
     tmp_path: Path, future: Any, result: str, reason: str
 ) -> None:
-    record = cluster_module._record(future, order(planned(tmp_path)[0], tmp_path))
-    assert (record.result, record.final) == (result, False)
-    assert reason in record.reason
+    result = cluster_module._result(future, job_of(planned(tmp_path)[0], tmp_path))
+    assert (result.result, result.final) == (result, False)
+    assert reason in result.reason
 
 
 def test_a_task_survives_the_loss_of_its_process(tmp_path: Path) -> None:
     first, second, *_ = planned(tmp_path)
-    assert fly_order(order(first, tmp_path)).result == "ok"
+    assert fly_job(job_of(first, tmp_path)).result == "ok"
     os.kill(cluster_module._own.worker.pid, signal.SIGKILL)
-    assert fly_order(order(second, tmp_path)).result == "ok"
+    assert fly_job(job_of(second, tmp_path)).result == "ok"
     cluster_module._own.worker.close()
     del cluster_module._own.worker
 

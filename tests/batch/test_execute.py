@@ -13,36 +13,36 @@ from atlas_cueing.batch.job_result import JobResult
 from atlas_cueing.errors import OutputError
 from atlas_cueing.run import run_scenario
 
-from .sweeping import order, planned
+from .sweeping import job_of, planned
 
 
 def test_log_and_figures_are_those_of_a_plain_run(tmp_path: Path) -> None:
     run = planned(tmp_path)[0]
     out = tmp_path / "out"
     out.mkdir()
-    record = fly_alone(order(run, out), out)
+    result = fly_alone(job_of(run, out), out)
     plain = run_scenario(run.scenario, tmp_path / "plain.mcap")
-    assert (record.result, record.log, record.ticks) == ("ok", Path(f"{run.id}.mcap"), plain.ticks)
-    assert (record.evaluation.metrics, record.evaluation.limit_use) == (
+    assert (result.result, result.log, result.ticks) == ("ok", Path(f"{run.id}.mcap"), plain.ticks)
+    assert (result.evaluation.metrics, result.evaluation.limit_use) == (
         plain.evaluation.metrics,
         plain.evaluation.limit_use,
     )
-    assert (out / record.log).read_bytes() == plain.log.read_bytes()
-    assert [path.name for path in out.iterdir()] == [str(record.log)]
+    assert (out / result.log).read_bytes() == plain.log.read_bytes()
+    assert [path.name for path in out.iterdir()] == [str(result.log)]
 
 
 def test_a_model_that_does_not_load_is_a_failed_vehicle(tmp_path: Path) -> None:
     run = planned(tmp_path, "vehicle.script=unitconversions")[0]
-    record = fly_alone(order(run, tmp_path), tmp_path)
-    assert (record.result, record.log, record.ticks) == ("vehicle_failed", None, 0)
-    assert "must be <runscript>" in record.reason
+    result = fly_alone(job_of(run, tmp_path), tmp_path)
+    assert (result.result, result.log, result.ticks) == ("vehicle_failed", None, 0)
+    assert "must be <runscript>" in result.reason
 
 
 def test_a_model_that_goes_wild(tmp_path: Path) -> None:
     run = planned(tmp_path, "vehicle.script=cannonball", "duration_s=600")[0]
-    record = fly_alone(order(run, tmp_path), tmp_path)
-    assert (record.result, record.log) == ("vehicle_failed", Path(f"{run.id}.mcap"))
-    assert record.ticks > 10
+    result = fly_alone(job_of(run, tmp_path), tmp_path)
+    assert (result.result, result.log) == ("vehicle_failed", Path(f"{run.id}.mcap"))
+    assert result.ticks > 10
 
 
 def broken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: Exception) -> JobResult:
@@ -50,7 +50,7 @@ def broken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: Exception) ->
         raise error
 
     monkeypatch.setattr(alone, "run_scenario", fail)
-    return fly_alone(order(planned(tmp_path)[0], tmp_path, RunLimits(memory=3.0)), tmp_path)
+    return fly_alone(job_of(planned(tmp_path)[0], tmp_path, RunLimits(memory=3.0)), tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -65,25 +65,25 @@ def broken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: Exception) ->
 def test_what_else_may_happen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: Exception, result: str, reason: str
 ) -> None:
-    record = broken(tmp_path, monkeypatch, error)
-    assert (record.result, record.reason) == (result, reason)
-    assert record.final == (result in ("out_of_memory", "failed"))
+    result = broken(tmp_path, monkeypatch, error)
+    assert (result.result, result.reason) == (result, reason)
+    assert result.final == (result in ("out_of_memory", "failed"))
 
 
 def test_a_worker_of_other_versions_does_not_fly(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    sent = order(planned(tmp_path)[0], tmp_path)
+    sent = job_of(planned(tmp_path)[0], tmp_path)
     monkeypatch.setattr("atlas_cueing.batch.run_id._version", lambda _: b"another")
-    record = fly_alone(sent, tmp_path)
-    assert record.result == "worker_differs"
+    result = fly_alone(sent, tmp_path)
+    assert result.result == "worker_differs"
     assert not list(tmp_path.glob("*.mcap*"))
-    assert not record.final
+    assert not result.final
 
 
 def test_a_folder_that_is_gone(tmp_path: Path) -> None:
     gone = tmp_path / "gone"
-    assert fly_alone(order(planned(tmp_path)[0], gone), gone).result == "recording_failed"
+    assert fly_alone(job_of(planned(tmp_path)[0], gone), gone).result == "recording_failed"
 
 
 def test_a_scenario_that_the_worker_cannot_read_is_a_failure_of_that_run(tmp_path: Path) -> None:

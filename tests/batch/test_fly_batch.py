@@ -32,7 +32,7 @@ def test_one_worker_or_two_give_the_same_bytes(tmp_path: Path) -> None:
             LIMITS,
         )
         assert [outcome.run for outcome in outcomes] == runs
-        assert all(outcome.record and outcome.record.clean for outcome in outcomes)
+        assert all(outcome.result and outcome.result.clean for outcome in outcomes)
     assert hashes(tmp_path / "1") == hashes(tmp_path / "2")
     assert len(hashes(tmp_path / "1")) == 4
 
@@ -43,17 +43,17 @@ def test_a_second_time_flies_only_what_is_missing(tmp_path: Path) -> None:
     flown: list[str] = []
     runs = planned(tmp_path)
     first = fly_batch(
-        runs[:2], results, fly_in_line, LIMITS, tell=lambda record: flown.append(record.id)
+        runs[:2], results, fly_in_line, LIMITS, tell=lambda result: flown.append(result.id)
     )
     again = fly_batch(
-        runs, results, fly_in_line, LIMITS, tell=lambda record: flown.append(record.id)
+        runs, results, fly_in_line, LIMITS, tell=lambda result: flown.append(result.id)
     )
     assert sorted(flown) == sorted(run.id for run in runs)
-    assert [outcome.record for outcome in again[:2]] == [outcome.record for outcome in first]
+    assert [outcome.result for outcome in again[:2]] == [outcome.result for outcome in first]
     (out / f"{runs[1].id}.mcap").unlink()
     (out / f"{runs[2].id}.json").write_bytes(b"")
     assert {run.id for run in missing(runs, results)} == {runs[1].id, runs[2].id}
-    fly_batch(runs, results, fly_in_line, LIMITS, tell=lambda record: flown.append(record.id))
+    fly_batch(runs, results, fly_in_line, LIMITS, tell=lambda result: flown.append(result.id))
     assert sorted(flown[4:]) == sorted([runs[1].id, runs[2].id])
     assert missing(runs, results) == []
 
@@ -85,7 +85,7 @@ def test_what_was_not_flown_is_none(tmp_path: Path) -> None:
         tell=told.append,
         stop=lambda: len(told) == 3,
     )
-    assert [outcome.record is not None for outcome in outcomes] == [True, True, True, False]
+    assert [outcome.result is not None for outcome in outcomes] == [True, True, True, False]
 
 
 def test_a_run_to_be_retried_and_not_flown_is_not_reported_as_it_was(tmp_path: Path) -> None:
@@ -94,7 +94,7 @@ def test_a_run_to_be_retried_and_not_flown_is_not_reported_as_it_was(tmp_path: P
     (outcome,) = fly_batch(
         [run], FolderStore(tmp_path), fly_in_line, LIMITS, retry=True, stop=lambda: True
     )
-    assert outcome.record is None
+    assert outcome.result is None
 
 
 def test_a_folder_in_use(tmp_path: Path) -> None:

@@ -29,14 +29,14 @@ def said(code: str) -> str:
 def ended(work: str, limit: float = 60.0) -> str:
     """Told, status, printed and late, of a child that does `work`."""
     return said(
-        f"def work():\n    {work}\nend = in_child(work, {limit})\nprint(end.told, end.status,"
+        f"def work():\n    {work}\nend = in_child(work, {limit})\nprint(end.answer, end.status,"
         " end.printed, end.late)"
     )
 
 
 def test_what_it_tells_comes_whole() -> None:
     assert ended("return b'it'") == "b'it' 0  False\n"
-    assert said("print(len(in_child(lambda: bytes(3_000_000), 60.0).told))") == "3000000\n"
+    assert said("print(len(in_child(lambda: bytes(3_000_000), 60.0).answer))") == "3000000\n"
 
 
 def test_what_it_prints_is_kept_apart() -> None:

@@ -9,11 +9,11 @@ from atlas_cueing.batch.job import Job, RunLimits
 from atlas_cueing.run import run_scenario
 from atlas_cueing.scenario import RecordedFlight
 
-from .sweeping import order, planned
+from .sweeping import job_of, planned
 
 
 def test_an_order_survives_its_line(tmp_path: Path) -> None:
-    sent = order(planned(tmp_path)[0], tmp_path, RunLimits(12.5, 3.0))
+    sent = job_of(planned(tmp_path)[0], tmp_path, RunLimits(12.5, 3.0))
     line = sent.to_line()
     assert line.count(b"\n") == 1
     assert line.endswith(b"\n")

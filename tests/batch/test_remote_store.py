@@ -18,7 +18,7 @@ from atlas_cueing.batch.remote_store import RemoteStore
 from atlas_cueing.batch.worker_main import _deliver
 from atlas_cueing.errors import InputError, OutputError
 
-from .sweeping import LIMITS, order, planned, sabotage
+from .sweeping import LIMITS, job_of, planned, sabotage
 from .test_fly_batch import hashes
 
 WHERE = "memory://results"
@@ -105,12 +105,12 @@ def test_while_it_is_uploaded_it_has_another_name(
 def test_a_record_there_without_its_log_is_flown_again(
     results: RemoteStore, tmp_path: Path
 ) -> None:
-    record = JobResult("ok", log=Path("r.mcap"), id="r")
-    keep(record, tmp_path)
+    result = JobResult("ok", log=Path("r.mcap"), id="r")
+    keep(result, tmp_path)
     results.write("r.json", (tmp_path / "r.json").read_bytes())
     assert kept(["r"], results) == {}
     results.write("r.mcap", b"log")
-    assert kept(["r", "s"], results) == {"r": record}
+    assert kept(["r", "s"], results) == {"r": result}
 
 
 def test_the_record_is_uploaded_last(
@@ -141,9 +141,9 @@ def test_an_upload_that_fails_says_how(
 
 def test_a_run_that_cannot_be_uploaded_is_flown_again(tmp_path: Path) -> None:
     run = planned(tmp_path)[0]
-    (record,) = fly_here([order(run, f"file://{tmp_path}/not_made")], 1)
-    assert (record.result, record.final) == ("recording_failed", False)
-    assert f"file://{tmp_path}/not_made: FileNotFoundError" in record.reason
+    (result,) = fly_here([job_of(run, f"file://{tmp_path}/not_made")], 1)
+    assert (result.result, result.final) == ("recording_failed", False)
+    assert f"file://{tmp_path}/not_made: FileNotFoundError" in result.reason
 
 
 def test_a_file_comes_back_for_its_review(results: RemoteStore, tmp_path: Path) -> None:
@@ -227,7 +227,7 @@ def test_workers_upload_the_same_bytes_and_leave_nothing_behind(
     runs = planned(tmp_path)
     there = RemoteStore(f"file://{tmp_path}/there")
     outcomes = fly_batch(runs, there, lambda orders, stop: fly_here(orders, 2, stop), LIMITS)
-    assert all(outcome.record and outcome.record.clean for outcome in outcomes)
+    assert all(outcome.result and outcome.result.clean for outcome in outcomes)
     fly_batch(
         runs, FolderStore(tmp_path / "here"), lambda orders, stop: fly_here(orders, 2, stop), LIMITS
     )
@@ -244,7 +244,7 @@ def test_what_a_killed_run_recorded_is_uploaded(
 ) -> None:
     deed = (
         "import tempfile; (Path(tempfile.gettempdir()) / 'mine').touch(); (workdir /"
-        " f'{order.id}.mcap.part').touch(); os.abort()"
+        " f'{job.id}.mcap.part').touch(); os.abort()"
     )
     sabotage(monkeypatch, deed)
     (tmp_path / "scratch").mkdir()
@@ -252,8 +252,8 @@ def test_what_a_killed_run_recorded_is_uploaded(
     runs = planned(tmp_path, 'sweep.cueing.method=["attitude"]')
     there = RemoteStore(f"file://{tmp_path}/there")
     (outcome,) = fly_batch(runs, there, lambda orders, stop: fly_here(orders, 1, stop), LIMITS)
-    assert outcome.record
-    assert (outcome.record.result, outcome.record.log) == (
+    assert outcome.result
+    assert (outcome.result.result, outcome.result.log) == (
         "crashed",
         Path(f"{runs[0].id}.mcap.part"),
     )
@@ -278,5 +278,5 @@ def test_a_worker_never_has_a_driver_of_its_own(
         lambda orders, stop: fly_here(orders, 1, stop),
         LIMITS,
     )
-    assert [outcome.record and outcome.record.result for outcome in outcomes] == ["ok"] * 4
+    assert [outcome.result and outcome.result.result for outcome in outcomes] == ["ok"] * 4
     assert not (tmp_path / "seen").exists()

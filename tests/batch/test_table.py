@@ -9,7 +9,7 @@ from atlas_cueing.batch.job_result import JobResult
 from atlas_cueing.batch.table import METRIC_COLUMNS, columns, csv_of, ordered, rows
 from atlas_cueing.run import Evaluation
 
-from .sweeping import order, planned
+from .sweeping import job_of, planned
 
 METRIC = "force_rms_m_s2"
 
@@ -106,8 +106,8 @@ def test_the_text_has_every_column_and_every_digit(tmp_path: Path) -> None:
 
 def test_metrics_are_known_before_anything_flies(tmp_path: Path) -> None:
     run = planned(tmp_path)[0]
-    record = fly_alone(order(run, tmp_path), tmp_path)
-    (row,) = rows([Outcome(run, record)])
+    result = fly_alone(job_of(run, tmp_path), tmp_path)
+    (row,) = rows([Outcome(run, result)])
     assert set(METRIC_COLUMNS) <= row.keys()
-    assert set(record.evaluation.metrics) <= set(METRIC_COLUMNS)
+    assert set(result.evaluation.metrics) <= set(METRIC_COLUMNS)
     assert METRIC in METRIC_COLUMNS

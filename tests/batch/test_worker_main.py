@@ -16,7 +16,7 @@ from atlas_cueing.batch.folder_store import FolderStore
 from atlas_cueing.batch.job import Job, RunLimits
 from atlas_cueing.batch.job_result import JobResult
 
-from .sweeping import LIMITS, kept_in, order, planned, sabotage
+from .sweeping import LIMITS, job_of, kept_in, planned, sabotage
 
 METHODS = ("blend", "attitude")
 
@@ -26,20 +26,23 @@ def told(orders: list[Job]) -> list[JobResult]:
     process = subprocess.Popen(workers._COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     assert process.stdin
     assert process.stdout
-    records = []
+    results = []
     for each in orders:
         process.stdin.write(each.to_line())
         process.stdin.flush()
-        records.append(JobResult.from_json(json.loads(process.stdout.readline())))
+        results.append(JobResult.from_json(json.loads(process.stdout.readline())))
     assert process.communicate(timeout=60) == (b"", None)
     assert process.returncode == 0
-    return records
+    return results
 
 
-def orders(folder: Path, limits: RunLimits) -> list[Job]:
+def jobs(folder: Path, limits: RunLimits) -> list[Job]:
     """A run that comes to harm under `sabotage`, and another after it in the same worker."""
     first, second, *_ = planned(folder)
-    return [order(second, folder, limits), order(first, folder, replace(limits, time=LIMITS.time))]
+    return [
+        job_of(second, folder, limits),
+        job_of(first, folder, replace(limits, time=LIMITS.time)),
+    ]
 
 
 @pytest.mark.parametrize(
@@ -67,7 +70,7 @@ def orders(folder: Path, limits: RunLimits) -> list[Job]:
         ),
         (
             "alone.run_scenario = lambda *_: bytearray(2 * 10**9)"
-            "\n        return fly(order, workdir)",
+            "\n        return fly(job, workdir)",
             RunLimits(memory=1.0),
             "out_of_memory",
             "needs more than 1 GB",
@@ -84,7 +87,7 @@ def test_one_runs_harm_is_no_others(
     reason: str,
 ) -> None:
     sabotage(monkeypatch, deed)
-    harmed, sound = told(orders(tmp_path, limits))
+    harmed, sound = told(jobs(tmp_path, limits))
     assert (harmed.result, harmed.reason) == (result, reason)
     assert kept_in(tmp_path, harmed.id) == harmed
     assert sound.result == "ok"
@@ -94,18 +97,18 @@ def test_one_runs_harm_is_no_others(
 def test_what_a_killed_run_recorded_is_kept(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    sabotage(monkeypatch, "(Path(order.place) / f'{order.id}.mcap.part').touch(); os.abort()")
-    harmed, _ = told(orders(tmp_path, RunLimits()))
+    sabotage(monkeypatch, "(Path(job.place) / f'{job.id}.mcap.part').touch(); os.abort()")
+    harmed, _ = told(jobs(tmp_path, RunLimits()))
     assert harmed.log == Path(f"{harmed.id}.mcap.part")
 
 
 def test_the_real_command_from_a_folder_of_strange_modules(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Nothing in the working directory is imported, nor gets printed text among the records."""
+    """Nothing in the working directory is imported, nor gets printed text among the results."""
     (tmp_path / "json.py").write_text("raise SystemExit('the wrong json')")
     monkeypatch.chdir(tmp_path)
-    assert [record.result for record in told(orders(tmp_path, RunLimits()))] == ["ok", "ok"]
+    assert [result.result for result in told(jobs(tmp_path, RunLimits()))] == ["ok", "ok"]
 
 
 def test_what_a_library_prints_in_the_worker_is_no_record(
@@ -116,14 +119,14 @@ def test_what_a_library_prints_in_the_worker_is_no_record(
         f"import os; from atlas_cueing.batch import worker_main as worker; {noisy}; worker.main()"
     )
     monkeypatch.setattr(workers, "_COMMAND", (sys.executable, "-c", code))
-    assert [record.result for record in told(orders(tmp_path, RunLimits()))] == ["ok", "ok"]
+    assert [result.result for result in told(jobs(tmp_path, RunLimits()))] == ["ok", "ok"]
 
 
 def test_when_the_driver_goes_the_run_goes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    sabotage(monkeypatch, "Path(order.place, 'pid').write_text(str(os.getpid())); time.sleep(600)")
+    sabotage(monkeypatch, "Path(job.place, 'pid').write_text(str(os.getpid())); time.sleep(600)")
     process = subprocess.Popen(workers._COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     assert process.stdin
-    process.stdin.write(orders(tmp_path, RunLimits())[0].to_line())
+    process.stdin.write(jobs(tmp_path, RunLimits())[0].to_line())
     process.stdin.flush()
     pid = tmp_path / "pid"
     while process.poll() is None and not (pid.exists() and pid.read_text()):
@@ -135,7 +138,7 @@ def test_when_the_driver_goes_the_run_goes(tmp_path: Path, monkeypatch: pytest.M
 
 
 def test_a_worker_that_waits_for_another_ends_with_its_driver(tmp_path: Path) -> None:
-    mine = orders(tmp_path, RunLimits())[0]
+    mine = jobs(tmp_path, RunLimits())[0]
     process = subprocess.Popen(workers._COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     with FolderStore(tmp_path).claimed(mine.id):
         assert process.communicate(mine.to_line(), timeout=60) == (b"", None)
@@ -148,13 +151,13 @@ def test_when_the_worker_is_killed_the_run_goes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     deed = (
-        "alone.run_scenario = lambda *_: (Path(order.place, 'pid').write_text(str(os.getpid())),"
+        "alone.run_scenario = lambda *_: (Path(job.place, 'pid').write_text(str(os.getpid())),"
         " time.sleep(600))"
     )
     sabotage(monkeypatch, deed)
     process = subprocess.Popen(workers._COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     assert process.stdin
-    process.stdin.write(orders(tmp_path, RunLimits())[0].to_line())
+    process.stdin.write(jobs(tmp_path, RunLimits())[0].to_line())
     process.stdin.flush()
     pid = tmp_path / "pid"
     while process.poll() is None and not (pid.exists() and pid.read_text()):

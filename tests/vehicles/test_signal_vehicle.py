@@ -13,13 +13,8 @@ from atlas_cueing.errors import InputError, VehicleError
 from atlas_cueing.rotation import geodesic, norm, to_euler
 from atlas_cueing.signals import STANDARD_GRAVITY, Vehicle, VehicleState
 from atlas_cueing.vehicles import Bounds, LimitedDuration, Signal, SignalFlight, SignalVehicle
-from atlas_cueing.vehicles.signal_vehicle import (
-    FORCE_AXES,
-    MIN_STEPS_PER_PERIOD,
-    RATE_AXES,
-    SHAPES,
-    SignalAxis,
-)
+from atlas_cueing.vehicles.signal_shapes import FORCE_AXES, RATE_AXES, SHAPES, SignalAxis
+from atlas_cueing.vehicles.signal_vehicle import MIN_STEPS_PER_PERIOD
 
 from . import flying
 
