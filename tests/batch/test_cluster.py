@@ -132,7 +132,7 @@ class KilledWorker(Exception):  # noqa: N818 - distributed's name
 
 
 @pytest.mark.parametrize(
-    ("future", "result", "reason"),
+    ("future", "cause", "reason"),
     [
         (
             Future("error", KilledWorker("4 times")),
@@ -144,14 +144,14 @@ class KilledWorker(Exception):  # noqa: N818 - distributed's name
             "worker_differs",
             "ModuleNotFoundError: atlas_cueing",
         ),
-        (Future("cancelled"), "worker_lost", "the cluster gave it up"),
+        (Future("cancelled"), "worker_lost", "the cluster cancelled it"),
     ],
 )
 def test_what_a_cluster_may_say_instead(
-    tmp_path: Path, future: Any, result: str, reason: str
+    tmp_path: Path, future: Any, cause: str, reason: str
 ) -> None:
     result = cluster_module._result(future, job_of(planned(tmp_path)[0], tmp_path))
-    assert (result.result, result.final) == (result, False)
+    assert (result.result, result.final) == (cause, False)
     assert reason in result.reason
 
 

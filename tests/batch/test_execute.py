@@ -54,7 +54,7 @@ def broken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: Exception) ->
 
 
 @pytest.mark.parametrize(
-    ("error", "result", "reason"),
+    ("error", "cause", "reason"),
     [
         (MemoryError(), "out_of_memory", "needs more than 3 GB"),
         (OutputError("No space left"), "recording_failed", "No space left"),
@@ -63,11 +63,11 @@ def broken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: Exception) ->
     ],
 )
 def test_what_else_may_happen(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: Exception, result: str, reason: str
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: Exception, cause: str, reason: str
 ) -> None:
     result = broken(tmp_path, monkeypatch, error)
-    assert (result.result, result.reason) == (result, reason)
-    assert result.final == (result in ("out_of_memory", "failed"))
+    assert (result.result, result.reason) == (cause, reason)
+    assert result.final == (cause in ("out_of_memory", "failed"))
 
 
 def test_a_worker_of_other_versions_does_not_fly(

@@ -37,8 +37,8 @@ def test_a_run_that_loses_its_worker_is_begun_again_and_then_given_up(
         "Path(job.place, 'tries').open('a').write('x'); os.kill(os.getppid(), signal.SIGKILL)",
     )
     results = list(fly_here([job_of(run, tmp_path) for run in planned(tmp_path)], 2))
-    results = {result.id.split("-")[2]: result.result for result in results}
-    assert results == {"blend": "ok", "attitude": "worker_lost", "force": "ok", "classical": "ok"}
+    by_method = {result.id.split("-")[2]: result.result for result in results}
+    assert by_method == {"blend": "ok", "attitude": "worker_lost", "force": "ok", "classical": "ok"}
     assert (tmp_path / "tries").read_text() == "xx"
     assert not next(result for result in results if result.result == "worker_lost").final
 
