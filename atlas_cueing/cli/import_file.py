@@ -87,7 +87,8 @@ def import_command(
             " package: atlas-cueing import --list-maps"
         )
     flight_map = load_map(map_name, settings or ())
-    read = [file, *([Path(map_name)] if Path(map_name).suffix == ".toml" else [])]
+    read = [file, *(file.iterdir() if file.is_dir() else ())]
+    read += [Path(map_name)] if Path(map_name).suffix == ".toml" else []
     if not split:
         check_output(output, inputs=read, force=force)
     with shown_share(file.name) as progress:

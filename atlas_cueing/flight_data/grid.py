@@ -1,16 +1,21 @@
 """The grid k dt that a flight stands on, and samples brought onto it."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..rotations import Array
 from .flight_map import MAX_RATE_HZ, MIN_RATE_HZ
-from .spline_fit import Curve, fit_curve
+from .spline_fit import Curve, fit_curve, sample_spacing
 from .stamps import Series
 
 # s; how far stamps may lie from a grid and be called on it: whole us, and as much again
 ON_GRID = 2e-6
+_CUSTOMARY_HZ = (10, 20, 25, 30, 40, 50, 60, 80, 100, 120, 125, 150, 200, 240, 250, 400, 500, 1000)
+_NEAR = 0.02
+_MARGIN = 2.0  # samples; there a curve at content of a tenth of the rate may be 2e-3 off
 _DIGITS = (0, 1, 2, 3)  # after the point of a rate in Hz, tried in turn
 
 
@@ -50,12 +55,12 @@ class Resampled:
 def natural_step(series: Series) -> float:
     """Return the step, s, of a series: exactly that of its stamps where they lie on a grid.
 
-    Otherwise it is that of its median rate, rounded to three digits, within the rates that a
-    platform is driven at.
+    Otherwise it is that of the customary rate within 2 % of its own, or of its own, rounded to
+    three digits; always of a rate that a platform is driven at.
     """
     time = series.time
     mean = (time[-1] - time[0]) / (len(time) - 1)
-    median = float(np.median(np.diff(time)))
+    median = sample_spacing(time)
     # the mean is the better one where no sample is missing
     rate = 1.0 / (mean if abs(mean - median) < 0.01 * median else median)
     for digits in _DIGITS:
@@ -64,12 +69,30 @@ def natural_step(series: Series) -> float:
             return _within(step)
     if _off(time, time[0], 1.0 / rate) <= ON_GRID:
         return _within(1.0 / rate)
-    return _within(1.0 / float(f"{1.0 / median:.3g}"))
+    usual = min(_CUSTOMARY_HZ, key=lambda customary: abs(customary - rate))
+    near = abs(usual - rate) <= _NEAR * rate
+    return _within(1.0 / (usual if near else float(f"{rate:.3g}")))
 
 
-def lay_grid(begin: float, end: float, step: float) -> Grid:
-    """Lay a grid from `begin` on that ends at `end` or before, s."""
-    return Grid(begin, step, int(np.floor((end - begin) / step + 1e-6)) + 1)
+def lay_grid(parts: Sequence[Series], first: Series, step: float) -> Grid:
+    """Lay a grid of `step`, s, within the times that all parts cover.
+
+    It begins on a sample of `first`, so that samples can be taken as they are. Where that cannot be
+    for all parts, it keeps two samples away from the ends, where a curve is less certain.
+    """
+    begin = max(float(series.time[0]) for series in parts)
+    end = min(float(series.time[-1]) for series in parts)
+    grid = _from_sample(first, begin, end, step)
+    if all(_exact(series, grid) is not None for series in parts):
+        return grid
+    margin = _MARGIN * max(sample_spacing(series.time) for series in parts)
+    return _from_sample(first, begin + margin, end - margin, step)
+
+
+def _from_sample(series: Series, begin: float, end: float, step: float) -> Grid:
+    k = min(int(np.searchsorted(series.time, begin - ON_GRID)), len(series.time) - 1)
+    start = float(series.time[k])
+    return Grid(start, step, max(int(np.floor((end - start) / step + 1e-6)) + 1, 0))
 
 
 def resample(series: Series, grid: Grid) -> Resampled:
@@ -87,9 +110,11 @@ def resample(series: Series, grid: Grid) -> Resampled:
     )
 
 
-def _exact(series: Series, grid: Grid) -> np.ndarray | None:
+def _exact(series: Series, grid: Grid) -> NDArray[np.intp] | None:
     """Return the sample of each time of the grid; None unless samples and grid are the same."""
-    step = float(np.median(np.diff(series.time)))
+    if grid.count < 1:
+        return None
+    step = sample_spacing(series.time)
     if abs(step - grid.step) > 0.01 * grid.step:
         return None  # of faster samples, those between would be left out, and so aliased
     times = grid.times

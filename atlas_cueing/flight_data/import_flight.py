@@ -213,11 +213,7 @@ def _flight(
     rate = flight_map.grid.rate_hz
     step = 1.0 / rate if rate else natural_step(piece["force"])
     force = piece["force"]
-    begin = max(float(series.time[0]) for series in piece.values())
-    # on a sample of the force where there is one, so that samples can be taken as they are
-    first = force.time[min(int(np.searchsorted(force.time, begin - 1e-9)), len(force.time) - 1)]
-    end = min(float(series.time[-1]) for series in piece.values())
-    grid = lay_grid(float(first), end, step)
+    grid = lay_grid(list(piece.values()), force, step)
     most = MAX_RECORDING // _STATE_BYTES
     if not 2 <= grid.count <= most:
         raise InputError(

@@ -16,6 +16,7 @@ from ..rotations import Array
 from .samples import Samples, Stamps
 
 GAP = 0.2  # s; a rider feels what happens in that time
+_ROUNDED = 1e-6  # s, of stamps
 _LEAST = 8  # samples that a fit needs
 
 
@@ -41,7 +42,7 @@ class Series:
 
     def gaps(self) -> list[tuple[int, int]]:
         """Return the pairs of samples, by number, between which there is a gap."""
-        before = np.flatnonzero(np.diff(self.time) >= GAP)
+        before = np.flatnonzero(np.diff(self.time) > GAP - _ROUNDED)
         return [(int(k), int(k) + 1) for k in before]
 
     def between(self, begin: float, end: float) -> "Series":

@@ -100,7 +100,7 @@ def test_what_is_missing_is_named(flight: Path, tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"--set platform\.preset=NAME, allowed: atlas-1\.5m, "):
         cue_again(log, ["cueing.method=attitude"], tmp_path / "new.mcap")
     gap = alone(tmp_path, flight, name="gap.mcap", time_s=0.8301)
-    with pytest.raises(InputError, match="no equal steps|must go on"):
+    with pytest.raises(InputError, match=r"no equal steps|must go on"):
         cue_again(gap, ["platform.preset=atlas-2.9m"], tmp_path / "new.mcap")
     assert not (tmp_path / "new.mcap").exists()
 

@@ -44,11 +44,11 @@ def read_csv(path: Path, flight_map: FlightMap, progress: Progress) -> dict[Part
     rows, table = _numbers(path, flight_map.csv.header_line, delimiter, header, names, progress)
     if not len(rows):
         raise InputError(f"{path}: no numbers below the header (line {flight_map.csv.header_line})")
-    return {part: _samples(part, columns, names, rows, table) for part, columns in places.items()}
+    return {part: _samples(columns, names, rows, table) for part, columns in places.items()}
 
 
 def _samples(
-    part: Part, columns: tuple[str, ...], names: list[str], rows: NDArray[Any], table: Array
+    columns: tuple[str, ...], names: list[str], rows: NDArray[Any], table: Array
 ) -> Samples:
     values = table[:, [names.index(column) for column in columns]]
     there = ~np.isnan(values).all(axis=1) & ~np.isnan(table[:, 0])
@@ -126,7 +126,7 @@ def _number(path: Path, line: int, name: str, cells: list[str], place: int) -> f
     if not isfinite(value):
         shown = text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}..."
         raise InputError(
-            f"{path}: line {line}, column {name!r} = {shown!r}, allowed: a finite number, or nothing"
+            f"{path}: line {line}, column {name!r} = {shown!r}, allowed: a finite number or nothing"
         )
     return value
 

@@ -32,7 +32,7 @@ def read_dataflash(path: Path, flight_map: FlightMap, progress: Progress) -> dic
             return _parts(path, reader(str(path)), flight_map, progress)
     except InputError:
         raise
-    except Exception as error:  # noqa: BLE001 - what a decoder makes of damaged files is its own
+    except Exception as error:
         told = " ".join(str(error).split())[:300]
         raise InputError(
             f"{path}: no DataFlash log that can be read: {type(error).__name__}: {told}"
@@ -122,6 +122,7 @@ def _is_binary(path: Path) -> bool:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from error
     if not begin.startswith((_HEAD, *_TEXT)):
         raise InputError(
-            f"{path}: is no DataFlash log: it begins with {begin!r}, allowed: {_HEAD!r} or {_TEXT[0]!r}"
+            f"{path}: is no DataFlash log: it begins with {begin!r}, allowed: {_HEAD!r} or"
+            f" {_TEXT[0]!r}"
         )
     return begin.startswith(_HEAD)

@@ -35,7 +35,7 @@ def read_ros_bag(path: Path, flight_map: FlightMap, progress: Progress) -> dict[
         raise
     except AnyReaderError as error:
         raise InputError(f"{path}: no ROS bag that can be read: {_line(error)}") from error
-    except Exception as error:  # noqa: BLE001 - what a decoder makes of damaged files is its own
+    except Exception as error:
         raise InputError(
             f"{path}: no ROS bag that can be read: {type(error).__name__}: {_line(error)}"
         ) from error
@@ -104,7 +104,7 @@ class _Bag:
     def _decoded(self, connection: Any, raw: bytes, count: int) -> Any:
         try:
             return self._reader.deserialize(raw, connection.msgtype)
-        except Exception as error:  # noqa: BLE001 - as above
+        except Exception as error:
             raise InputError(
                 f"{self._path}: message {count} of {connection.topic}: cannot be decoded:"
                 f" {_line(error)}"

@@ -26,7 +26,7 @@ def read_ulog(path: Path, flight_map: FlightMap, progress: Progress) -> dict[Par
     try:
         with redirect_stdout(StringIO()):  # it prints what it finds wrong
             log: Any = ULog(str(path))
-    except Exception as error:  # noqa: BLE001 - what a decoder makes of damaged files is its own
+    except Exception as error:
         told = " ".join(str(error).split())[:300]
         raise InputError(
             f"{path}: no ULog that can be read: {type(error).__name__}: {told}"
