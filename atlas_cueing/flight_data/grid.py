@@ -15,6 +15,8 @@ from .stamps import Series
 ON_GRID = 2e-6
 _CUSTOMARY_HZ = (10, 20, 25, 30, 40, 50, 60, 80, 100, 120, 125, 150, 200, 240, 250, 400, 500, 1000)
 _NEAR = 0.02
+_ROUNDED = 1.01  # of half the last digit of a stamp
+_MOST_OFF = 0.1  # of a step: stamps rounded more coarsely say nothing about a grid
 _MARGIN = 2.0  # samples; there a curve at content of a tenth of the rate may be 2e-3 off
 _DIGITS = (0, 1, 2, 3)  # after the point of a rate in Hz, tried in turn
 
@@ -62,12 +64,13 @@ def natural_step(series: Series) -> float:
     mean = (time[-1] - time[0]) / (len(time) - 1)
     median = sample_spacing(time)
     # the mean is the better one where no sample is missing
-    rate = 1.0 / (mean if abs(mean - median) < 0.01 * median else median)
+    close = 0.01 * median + 2.0 * float(series.rounding.max())
+    rate = 1.0 / (mean if abs(mean - median) < close else median)
     for digits in _DIGITS:
         step = 1.0 / round(rate, digits) if round(rate, digits) > 0.0 else 0.0
-        if step and _off(time, time[0], step) <= ON_GRID:
+        if step and _offset(series, step) is not None:
             return _within(step)
-    if _off(time, time[0], 1.0 / rate) <= ON_GRID:
+    if _offset(series, 1.0 / rate) is not None:
         return _within(1.0 / rate)
     usual = min(_CUSTOMARY_HZ, key=lambda customary: abs(customary - rate))
     near = abs(usual - rate) <= _NEAR * rate
@@ -90,9 +93,13 @@ def lay_grid(parts: Sequence[Series], first: Series, step: float) -> Grid:
 
 
 def _from_sample(series: Series, begin: float, end: float, step: float) -> Grid:
+    """Lay a grid from a sample of the series on, or from where it stood before it was rounded."""
     k = min(int(np.searchsorted(series.time, begin - ON_GRID)), len(series.time) - 1)
-    start = float(series.time[k])
-    return Grid(start, step, max(int(np.floor((end - start) / step + 1e-6)) + 1, 0))
+    start, offset = float(series.time[k]), _offset(series, step)
+    if offset is not None:
+        start = offset + step * round((start - offset) / step)
+    slack = max(ON_GRID, float(series.rounding[-1]))
+    return Grid(start, step, max(int(np.floor((end - start + slack) / step)) + 1, 0))
 
 
 def resample(series: Series, grid: Grid) -> Resampled:
@@ -114,7 +121,7 @@ def _exact(series: Series, grid: Grid) -> NDArray[np.intp] | None:
     """Return the sample of each time of the grid; None unless samples and grid are the same."""
     if grid.count < 1:
         return None
-    step = sample_spacing(series.time)
+    step = (series.time[-1] - series.time[0]) / (len(series.time) - 1)
     if abs(step - grid.step) > 0.01 * grid.step:
         return None  # of faster samples, those between would be left out, and so aliased
     times = grid.times
@@ -122,13 +129,24 @@ def _exact(series: Series, grid: Grid) -> NDArray[np.intp] | None:
     if nearest[-1] >= len(series.time):
         return None
     off = np.abs(series.time[nearest] - times)
-    return nearest if float(off.max()) <= ON_GRID else None
+    return nearest if np.all(off <= 2.0 * _tolerance(series, grid.step)[nearest]) else None
 
 
-def _off(time: Array, start: float, step: float) -> float:
-    """Return how far times lie from a grid at most, s, whose line goes through them at best."""
-    off = time - start - step * np.rint((time - start) / step)
-    return 0.5 * float(np.ptp(off))
+def _offset(series: Series, step: float) -> float | None:
+    """Return the time, s, of a point of the grid of `step` that all samples lie on.
+
+    Every stamp may be off by as much as it was rounded. None where there is no such grid.
+    """
+    first = float(series.time[0])
+    off = series.time - first - step * np.rint((series.time - first) / step)
+    allowed = _tolerance(series, step)
+    least, most = float(np.max(off - allowed)), float(np.min(off + allowed))
+    return first + min(max(0.0, least), most) if least <= most else None
+
+
+def _tolerance(series: Series, step: float) -> Array:
+    rounded: Array = np.clip(_ROUNDED * series.rounding, ON_GRID, _MOST_OFF * step)
+    return rounded
 
 
 def _within(step: float) -> float:

@@ -5,7 +5,7 @@ repeated stamp has the mean of its values, a sample that came late goes where it
 hole of GAP or more is a gap, which nobody may fill.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from .samples import Samples, Stamps
 
 GAP = 0.2  # s; a rider feels what happens in that time
 _ROUNDED = 1e-6  # s, of stamps
+_MOST_DIGITS, _FEWEST_SIGNIFICANT = 9, 5
 _LEAST = 8  # samples that a fit needs
 
 
@@ -26,6 +27,7 @@ class Series:
 
     time: (n,) s since the file's first stamp, strictly increasing. values: (n, columns).
     index: (n,) which of the samples each one is, for messages. samples: as they were read.
+    rounding: (n,) s, how far the time may lie from the true one because it was rounded.
     repeated, late: how many stamps were.
     """
 
@@ -33,6 +35,7 @@ class Series:
     values: Array
     index: NDArray[Any]
     samples: Samples
+    rounding: Array
     repeated: int
     late: int
 
@@ -50,13 +53,12 @@ class Series:
         first = int(np.searchsorted(self.time, begin, side="left"))
         last = int(np.searchsorted(self.time, end, side="right"))
         part = slice(first, last)
-        return Series(
-            self.time[part],
-            self.values[part],
-            self.index[part],
-            self.samples,
-            self.repeated,
-            self.late,
+        return replace(
+            self,
+            time=self.time[part],
+            values=self.values[part],
+            index=self.index[part],
+            rounding=self.rounding[part],
         )
 
 
@@ -96,7 +98,8 @@ def in_order(path: str, samples: Samples, start: int | float, unit: float) -> Se
             f"{path}: {len(time)} samples of {', '.join(samples.columns)} with times of their own,"
             f" allowed: at least {_LEAST}"
         )
-    return Series(time, values, order, samples, repeated, late)
+    rounding = unit * _rounding(samples.stamps[order])
+    return Series(time, values, order, samples, rounding, repeated, late)
 
 
 def _seconds(stamps: Stamps, start: int | float, unit: float) -> Array:
@@ -106,6 +109,31 @@ def _seconds(stamps: Stamps, start: int | float, unit: float) -> Array:
     # 1e-6 has no exact double, 1e6 has
     scaled: Array = seconds / round(1.0 / unit) if unit < 1.0 else seconds * unit
     return scaled
+
+
+def _rounding(stamps: Stamps) -> Array:
+    """Return half of the last digit that each stamp is written with, in the unit of the stamps.
+
+    Digits after the point are counted, or else significant ones, as JSBSim and C write six.
+    """
+    if stamps.dtype.kind in "ui":
+        return np.full(len(stamps), 0.5)
+    written = stamps.astype(np.float64)
+    decimals = next((d for d in range(_MOST_DIGITS) if _is_same(written.round(d), written)), None)
+    if decimals is not None:
+        return np.full(len(stamps), 0.5 * 10.0**-decimals)
+    with np.errstate(divide="ignore"):
+        leading = np.floor(np.log10(np.maximum(np.abs(written), 1e-12)))
+    for digits in range(_FEWEST_SIGNIFICANT, _MOST_DIGITS):
+        last = 10.0 ** (leading - digits + 1)
+        if _is_same(last * np.rint(written / last), written):
+            half: Array = 0.5 * last
+            return half
+    return np.zeros(len(stamps))
+
+
+def _is_same(rounded: Array, stamps: Array) -> bool:
+    return bool(np.all(np.abs(rounded - stamps) <= 1e-14 * np.maximum(np.abs(stamps), 1e-3)))
 
 
 def _check_values(path: str, samples: Samples) -> None:

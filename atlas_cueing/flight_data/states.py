@@ -8,7 +8,7 @@ Specific force at the pilot's eye, body FRD, from what the file has, in this ord
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -107,7 +107,7 @@ def _attitude(
     assert flight_map.attitude is not None  # noqa: S101 - the part is there
     series = parts["attitude"]
     q_NB = attitude(series.values, flight_map.attitude, factors["attitude"])
-    turned = Series(series.time, q_NB, series.index, series.samples, series.repeated, series.late)
+    turned = replace(series, values=q_NB)
     on_grid = resample(turned, grid).values
     return continuous(on_grid / length(on_grid)[:, None])
 

@@ -26,10 +26,12 @@ def read_dataflash(path: Path, flight_map: FlightMap, progress: Progress) -> dic
         from pymavlink import DFReader
     except ImportError as error:
         raise MissingExtraError("reading a DataFlash log", "pymavlink", "logs") from error
-    reader = DFReader.DFReader_binary if _is_binary(path) else DFReader.DFReader_text
+    kind = DFReader.DFReader_binary if _is_binary(path) else DFReader.DFReader_text
+    log = kind.__new__(kind)  # made in two steps, so that its file is closed whatever happens
     try:
         with redirect_stdout(StringIO()), redirect_stderr(StringIO()):  # it prints what is wrong
-            return _parts(path, reader(str(path)), flight_map, progress)
+            log.__init__(str(path))
+            return _parts(path, log, flight_map, progress)
     except InputError:
         raise
     except Exception as error:
@@ -37,6 +39,10 @@ def read_dataflash(path: Path, flight_map: FlightMap, progress: Progress) -> dic
         raise InputError(
             f"{path}: no DataFlash log that can be read: {type(error).__name__}: {told}"
         ) from error
+    finally:
+        for name in ("data_map", "filehandle"):
+            if hasattr(log, name):
+                getattr(log, name).close()
 
 
 def _parts(path: Path, log: Any, flight_map: FlightMap, progress: Progress) -> dict[Part, Samples]:
