@@ -62,9 +62,6 @@ def _header(path: Path, flight_map: FlightMap) -> tuple[list[str], str]:
         if line == number:
             delimiter = flight_map.csv.delimiter or max(_DELIMITERS, key=text.count)
             names = [name.strip() for name in next(csv.reader([text], delimiter=delimiter))]
-            twice = next((name for name in names if name and names.count(name) > 1), "")
-            if twice:
-                raise InputError(f"{path}: line {number}: two columns are called {twice!r}")
             return names, delimiter
     raise InputError(f"{path}: line {number}: missing, where the header should be")
 
@@ -73,6 +70,10 @@ def _column(path: Path, key: str, names: tuple[str, ...], header: Sequence[str])
     found = chosen(names, header)
     if found is None:
         raise missing(path, key, names, header)
+    if header.count(found) > 1:
+        raise InputError(
+            f"{path}: {header.count(found)} columns are called {found!r}, allowed: one"
+        )
     return found
 
 
