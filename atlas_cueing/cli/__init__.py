@@ -23,6 +23,8 @@ from .batch import EPILOG as BATCH_EPILOG
 from .batch import batch_command
 from .compare import EPILOG as COMPARE_EPILOG
 from .compare import compare_command
+from .import_file import EPILOG as IMPORT_EPILOG
+from .import_file import import_command
 from .live import EPILOG as LIVE_EPILOG
 from .live import live_command
 from .platform import EPILOG as PLATFORM_EPILOG
@@ -61,6 +63,7 @@ app.command("review", epilog=REVIEW_EPILOG)(review_command)
 app.command("compare", epilog=COMPARE_EPILOG)(compare_command)
 app.command("recue", epilog=RECUE_EPILOG)(recue_command)
 app.command("recover", epilog=RECOVER_EPILOG)(recover_command)
+app.command("import", epilog=IMPORT_EPILOG)(import_command)
 app.command("platform", epilog=PLATFORM_EPILOG)(platform_command)
 
 

@@ -39,3 +39,24 @@ def shown_progress(name: str, duration: float | None) -> Iterator[Callable[[floa
             bar.update(task, completed=time, flown=flown, visible=wall > _SHORT)
 
         yield progress
+
+
+@contextmanager
+def shown_share(name: str) -> Iterator[Callable[[float], None]]:
+    """Give a function to call with the share that is done, 0 to 1; it shows a bar on a terminal."""
+    if not sys.stderr.isatty():
+        yield lambda _: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn
+
+    columns = [TextColumn("{task.description}", markup=False), BarColumn(), TaskProgressColumn()]
+    begun = perf_counter()
+    with Progress(*columns, console=Console(file=terminal_of(sys.stderr)), transient=True) as bar:
+        task = bar.add_task(printable(name), total=1.0, visible=False)
+
+        def progress(share: float) -> None:
+            """Move the bar to the share that is done."""
+            bar.update(task, completed=share, visible=perf_counter() - begun > _SHORT)
+
+        yield progress

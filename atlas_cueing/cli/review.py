@@ -5,10 +5,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import LogError
+from ..errors import InputError, LogError
 from .options import AsJson
 
 if TYPE_CHECKING:
+    from ..recording import Log
     from ..review import Review
 
 EPILOG = """
@@ -56,20 +57,23 @@ def review_command(
     """Judge a log by its own numbers.
 
     Looked at are every limit, wheels against motion, orientation, felt force, time, and the states
-    of the run.
+    of the run. A flight alone, as one that was imported, is judged by whether it can be flown.
 
     Exit status 0: nothing was found. 1: a finding, or the log is damaged or not one of ours. 2: bad
         usage.
     """
-    from ..review import advice
-    from ..review import review_log as judged
+    from ..review import advice, is_flight_alone, judge, open_log, run_of
     from .open_page import check_pages
     from .text import one_json
 
     if html or replay:
         html, replay = check_pages([html, replay], inputs=[log], force=force)
     try:
-        found = judged(log)
+        opened = open_log(log)
+        if is_flight_alone(opened):
+            _end_flight(opened, as_json, pages=bool(html or replay or view))
+            return
+        found = judge(run_of(opened))
     except LogError as error:
         if as_json:
             typer.echo(
@@ -93,6 +97,22 @@ def review_command(
 
         title = found.run.log.metadata.get("scenario", "") or log.stem
         play(found.run.platform, found.run.flight, _say_address, port=port, title=title)
+    if not found.clean:
+        raise typer.Exit(1)
+
+
+def _end_flight(log: "Log", as_json: bool, *, pages: bool) -> None:
+    """Print the review of a flight that nobody has cued, which has no pages."""
+    from ..review import review_flight
+    from .text import aligned, one_json
+
+    if pages:
+        raise InputError(
+            f"log {log.path}: holds a flight alone, which has no page; cue it first: atlas-cueing"
+            f" recue {log.path} --set platform.preset=NAME -o NEW.mcap"
+        )
+    found = review_flight(log)
+    typer.echo(one_json(found.to_json()) if as_json else "\n".join(aligned(found.rows(), "")))
     if not found.clean:
         raise typer.Exit(1)
 

@@ -9,8 +9,8 @@ from .input import FlightgearSource, Source, UdpReceiver, VehicleSource
 def open_source(scenario: Scenario) -> Source:
     """Open a new source, ready to be read; close it after use.
 
-    Raises InputError for what cannot fly (a model, log or port that is not available), LogError for
-    a damaged log, and VehicleError for a model that fails in its first state.
+    Raises InputError for what cannot fly (a model, log or port that is not available, a damaged
+    log), and VehicleError for a model that fails in its first state.
     """
     flight = scenario.live_flight
     if isinstance(flight, FlightgearFlight):

@@ -3,6 +3,7 @@
 from .log import Log, TopicColumns
 from .reader import read_log
 from .recorder import RUN_METADATA, McapRecorder
+from .vehicle_log import write_vehicle_log
 
 __all__ = [
     "RUN_METADATA",
@@ -10,4 +11,5 @@ __all__ = [
     "McapRecorder",
     "TopicColumns",
     "read_log",
+    "write_vehicle_log",
 ]

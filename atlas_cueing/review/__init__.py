@@ -3,22 +3,27 @@
 from .comparison import Comparison, compare_logs
 from .cue_again import cue_again
 from .finding import Finding
-from .recorded_run import RecordedRun, open_log, open_run
+from .flight_alone import FlightReview, is_flight_alone, review_flight
+from .recorded_run import RecordedRun, open_log, open_run, run_of
 from .recovery import Recovered, advice, recover_log
 from .verdict import Review, judge, review_log
 
 __all__ = [
     "Comparison",
     "Finding",
+    "FlightReview",
     "RecordedRun",
     "Recovered",
     "Review",
     "advice",
     "compare_logs",
     "cue_again",
+    "is_flight_alone",
     "judge",
     "open_log",
     "open_run",
     "recover_log",
+    "review_flight",
     "review_log",
+    "run_of",
 ]

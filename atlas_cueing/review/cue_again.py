@@ -4,14 +4,15 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..errors import InputError, LogError, OutputError, ScenarioError
+from ..errors import InputError, OutputError, ScenarioError
 from ..run import open_recorder, prepare, ticks
-from ..scenario import Scenario, recorded_vehicle
+from ..scenario import Scenario, recorded_vehicle, regular_vehicle
 from ..scenario.cueing_table import TABLES
 from ..scenario.load import resolve
 from ..scenario.overrides import parse_overrides
 from ..scenario.reading import read_toml
 from .attachments import SCENARIO, as_inside, unpacked
+from .flight_alone import scenario_of_flight
 from .recorded_run import open_log
 
 _FLOWN = ("vehicle", "duration_s")  # keys of what has been flown already
@@ -25,18 +26,19 @@ def cue_again(path: str | Path, settings: Sequence[str], output: str | Path) -> 
     Without settings, cue, motion and wheels are the log's own to the last bit. With another method,
     what the old one had by default is left to the new one's defaults, as in a run; what was set for
     the old one stays where the new one knows the key. States, result and reason are the flight's,
-    so they are kept. Gives the scenario. Raises InputError (nothing was written) for settings that
-    do not fit, LogError for a log that is damaged or holds no scenario.
+    so they are kept. A log that holds no scenario, such as an imported flight, is cued by the
+    settings alone. Gives the scenario. Raises InputError (nothing was written) for settings that do
+    not fit or do not name what is missing, and for a log without a flight that can be cued;
+    LogError for a log that is damaged.
     """
     _refuse_flown(settings)
     output = Path(output)
     log = open_log(path)
-    if SCENARIO not in log.attachments:
-        raise LogError(
-            f"{path}: the log does not hold {SCENARIO}, so there is nothing to cue it by"
-        )
-    recorded = recorded_vehicle(log)
+    bare = SCENARIO not in log.attachments
+    recorded = regular_vehicle(log) if bare else recorded_vehicle(log)
     with unpacked(log) as folder:
+        if bare:
+            (folder / SCENARIO).write_text(scenario_of_flight(log, settings), "utf-8")
         try:
             scenario = _cued_by(folder / SCENARIO, [_from_here(text) for text in settings])
         except ScenarioError as error:
@@ -58,7 +60,8 @@ def cue_again(path: str | Path, settings: Sequence[str], output: str | Path) -> 
                 recorder.append(tick)
         for status in log.statuses:
             recorder.status(status.time, status.state, status.reason)
-        recorder.close(log.metadata.get("result", ""), log.metadata.get("reason", ""))
+        ended = "ok" if bare else ""  # a flight alone has no end but its own
+        recorder.close(log.metadata.get("result", ended), log.metadata.get("reason", ""))
     except OutputError:
         recorder.abandon()
         recorder.part.unlink(missing_ok=True)  # half of it is of no use: the flight is still there

@@ -11,6 +11,7 @@ from ..recording import Log, read_log
 from ..rotations import Array
 from ..scenario import Platform
 from .attachments import platform_of
+from .flight_alone import is_flight_alone
 
 # A log packs to four fifths of its size in flight and to a sixth standing still. What it may unpack
 # to is bounded by its own size: else 30 kB could fill the memory.
@@ -57,10 +58,20 @@ class RecordedRun:
 def open_run(path: str | Path) -> RecordedRun:
     """Read a log with its platform.
 
-    Raises InputError when there is no such file and LogError when it is damaged, not a log of ours,
-    or lacks a topic or the platform that it was flown on.
+    Raises InputError when there is no such file or it holds a flight alone, and LogError when it is
+    damaged, not a log of ours, or lacks a topic or the platform that it was flown on.
     """
-    log = open_log(path)
+    return run_of(open_log(path))
+
+
+def run_of(log: Log) -> RecordedRun:
+    """Return a log with its platform. Raises as `open_run`."""
+    path = log.path
+    if is_flight_alone(log):
+        raise InputError(
+            f"log {path}: holds a flight alone, which nobody has cued yet; cue it first:"
+            f" atlas-cueing recue {path} --set platform.preset=NAME -o NEW.mcap"
+        )
     flight = RunColumns.of(_even(log))
     return RecordedRun(log, platform_of(log), flight)
 

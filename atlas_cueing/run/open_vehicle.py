@@ -3,7 +3,7 @@
 from ..errors import InputError
 from ..scenario import Scenario
 from ..signals import Vehicle
-from ..vehicles import Flight, LimitedDuration
+from ..vehicles import Flight, LimitedDuration, RecordedVehicle
 
 
 def open_vehicle(scenario: Scenario, *, live: bool = False) -> Vehicle:
@@ -11,8 +11,8 @@ def open_vehicle(scenario: Scenario, *, live: bool = False) -> Vehicle:
 
     live: whether it flies in real time, as some sources only do.
 
-    Raises InputError for what cannot fly or flies only live, LogError for a damaged recording, and
-    VehicleError for a model that fails in its first state.
+    Raises InputError for what cannot fly or flies only live and for a recording with gaps without
+    a clock or that is damaged, and VehicleError for a model that fails in its first state.
     """
     flight = scenario.live_flight if live else scenario.flight
     asked = scenario.file.duration_s
@@ -23,7 +23,16 @@ def open_vehicle(scenario: Scenario, *, live: bool = False) -> Vehicle:
         )
     with scenario.naming_file():
         vehicle = flight.vehicle()
+    if isinstance(vehicle, RecordedVehicle) and not live:
+        _check_regular(vehicle, flight)
     return vehicle if end is None else LimitedDuration(vehicle, end)
+
+
+def _check_regular(vehicle: RecordedVehicle, flight: Flight) -> None:
+    try:
+        vehicle.check_regular()
+    except InputError as error:
+        raise InputError(f"log {flight.name}: {error}") from error
 
 
 def flight_length(flight: Flight, asked: float | None) -> float | None:

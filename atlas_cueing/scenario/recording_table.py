@@ -10,6 +10,12 @@ from .source_table import SourceTable
 from .tables import text
 
 _LONGEST_PATH = 4096  # characters
+_LOG = "path of a log (MCAP)"
+
+
+def _is_path_of_log(path: str) -> bool:
+    """Whether a text may be the path of a log; a name of TOML would hide a file of the run."""
+    return is_name(path) and len(path) <= _LONGEST_PATH and not path.endswith((".toml", "/"))
 
 
 class RecordedFlightTable(SourceTable):
@@ -19,17 +25,21 @@ class RecordedFlightTable(SourceTable):
     """
 
     source: Literal["recording"] = "recording"
-    log: (
-        Annotated[
-            str, text("path of a log", lambda path: is_name(path) and len(path) <= _LONGEST_PATH)
-        ]
-        | None
-    ) = None
+    log: Annotated[str, text(_LOG, _is_path_of_log)] | None = None
+
+    @property
+    def flown(self) -> str:
+        """What flies: the log, by its name."""
+        return Path(self.log or "").name
 
     def flight(self, folder: Path) -> RecordedFlight:
         """Return the log as a flight."""
         assert self.log is not None  # noqa: S101 - rules
         return RecordedFlight(folder / self.log)
+
+    def portable(self, folder: Path) -> dict[str, Any]:
+        """Return the table with the log beside the scenario, by its name alone."""
+        return super().portable(folder) | {"log": Path(self.log or "").name}
 
     @classmethod
     def rules(cls, vehicle: dict[str, Any], data: dict[str, Any]) -> list[tuple[Key, str]]:

@@ -4,9 +4,13 @@ from collections.abc import Sequence
 from itertools import pairwise
 from math import ulp
 from statistics import median
+from typing import Final
 
 from ..errors import InputError
 from ..signals import VehicleState
+
+# of a step: how far a state may lie from its place; times in whole us at 1000 Hz lie 1e-3 away
+_IRREGULAR: Final = 0.02
 
 
 class RecordedVehicle:
@@ -46,6 +50,26 @@ class RecordedVehicle:
     def length(self) -> float:
         """Time from the first state to the last, s."""
         return self._states[-1].time - self._states[0].time
+
+    def check_regular(self) -> None:
+        """Refuse what cannot be flown without a clock, where every state is one step on.
+
+        Nothing is resampled here. Raises InputError for states that are missing, or that do not lie
+        on the grid of the step.
+        """
+        first = self._states[0].time
+        for k, (before, now) in enumerate(pairwise(self._states), 1):
+            off = now.time - first - k * self._dt
+            if abs(off) <= _IRREGULAR * self._dt + 4.0 * ulp(now.time):
+                continue
+            lost = round((now.time - before.time) / self._dt) - 1
+            found = (
+                f"{lost} state{'s' if lost > 1 else ''} missing between {before.time:.6f} and"
+                f" {now.time:.6f} s"
+                if lost > 0
+                else f"its states are no equal steps: {now.time:.6f} s after {before.time:.6f} s"
+            )
+            raise InputError(f"{found}, allowed: a state every {self._dt:.9g} s")
 
     @property
     def state(self) -> VehicleState:

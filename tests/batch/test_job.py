@@ -7,7 +7,6 @@ from atlas_cueing.batch import plan
 from atlas_cueing.batch.execute import fly_alone
 from atlas_cueing.batch.job import Job, RunLimits
 from atlas_cueing.run import run_scenario
-from atlas_cueing.scenario import RecordedFlight
 
 from .sweeping import job_of, planned
 
@@ -35,11 +34,8 @@ preset = "atlas-2.9m"
 """
 
 
-def test_a_file_too_large_to_carry_is_read_where_it_lies(
-    load: Load, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A recording, as if it flew in a batch already: the run's id is that of its content."""
-    monkeypatch.setattr(RecordedFlight, "live_only", "")
+def test_a_file_too_large_to_carry_is_read_where_it_lies(load: Load, tmp_path: Path) -> None:
+    """A recording: the run's id is that of its content, wherever it lies."""
     run_scenario(load("duration_s=0.2"), tmp_path / "flown.mcap")
     (tmp_path / "again.toml").write_text(RECORDING)
     (run,) = plan([tmp_path / "again.toml"])
@@ -52,3 +48,16 @@ def test_a_file_too_large_to_carry_is_read_where_it_lies(
     assert fly_alone(sent, tmp_path).result == "worker_differs"
     (tmp_path / "flown.mcap").unlink()
     assert fly_alone(sent, tmp_path).result == "vehicle_failed"
+
+
+def test_a_sweep_over_a_recording_in_another_folder(load: Load, tmp_path: Path) -> None:
+    (tmp_path / "logs").mkdir()
+    run_scenario(load("duration_s=0.2"), tmp_path / "logs/flown.mcap")
+    text = RECORDING.replace("flown.mcap", "logs/flown.mcap")
+    (tmp_path / "again.toml").write_text(text + '[sweep]\ncueing.method = ["blend", "attitude"]\n')
+    runs = plan([tmp_path / "again.toml"])
+    assert [run.settings["cueing.method"] for run in runs] == ["blend", "attitude"]
+    for run in runs:
+        sent = Job.from_line(Job.of(run, str(tmp_path), RunLimits()).to_line())
+        assert sent.large == {"flown.mcap": str(tmp_path / "logs/flown.mcap")}
+        assert fly_alone(sent, tmp_path).result == "ok"

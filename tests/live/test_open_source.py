@@ -7,7 +7,7 @@ from time import monotonic
 import pytest
 from vehicles.packets import packet
 
-from atlas_cueing.errors import InputError, LogError
+from atlas_cueing.errors import InputError
 from atlas_cueing.live.input.source import Source
 from atlas_cueing.live.open_source import open_source
 from atlas_cueing.recording import read_log
@@ -71,7 +71,7 @@ def test_a_recording_that_is_not_there_or_no_log(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"roll\.mcap: no such file"):
         open_source(load(tmp_path, RECORDING))
     (tmp_path / "roll.mcap").write_bytes(b"no log")
-    with pytest.raises(LogError):
+    with pytest.raises(InputError, match=r"roll\.mcap: the file is cut"):
         open_source(load(tmp_path, RECORDING))
 
 

@@ -1,5 +1,6 @@
 """Logs as vehicles."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from math import inf, nan
 from pathlib import Path
@@ -7,13 +8,22 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from atlas_cueing.errors import InputError, LogError
-from atlas_cueing.recording import Log, read_log
+from atlas_cueing.errors import InputError
+from atlas_cueing.recording import Log, read_log, write_vehicle_log
 from atlas_cueing.run import run_scenario
 from atlas_cueing.scenario import RecordedFlight, load_scenario, recorded_vehicle
 from atlas_cueing.vehicles import Bounds
 
 from .texts import SCRIPT
+
+RECORDED = """
+name = "again"
+[vehicle]
+source = "recording"
+log = "{}"
+[platform]
+preset = "atlas-2.9m"
+"""
 
 
 @pytest.fixture(scope="module")
@@ -74,5 +84,71 @@ def test_no_log_at_all(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="not a regular file"):
         RecordedFlight(tmp_path).vehicle()
     (tmp_path / "junk.mcap").write_bytes(b"\x89MCAP0\r\n" + bytes(100))
-    with pytest.raises(LogError):
+    with pytest.raises(InputError, match=r"junk\.mcap"):
         RecordedFlight(tmp_path / "junk.mcap").vehicle()
+
+
+def changed(log: Log, folder: Path, change: Callable[[np.ndarray], np.ndarray]) -> RecordedFlight:
+    """The flight of the log alone, its rows changed, in a file of its own."""
+    rows = change(log.tables["/vehicle"].values.copy())
+    (folder / "changed.mcap").write_bytes(write_vehicle_log(rows, {}, {}))
+    return RecordedFlight(folder / "changed.mcap")
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda rows: np.delete(rows, 7, axis=0), "1 state missing between 0.05"),
+        (lambda rows: np.delete(rows, np.s_[5:9], axis=0), "4 states missing between"),
+        (lambda rows: rows + 1e-3 * np.eye(len(rows), 11, -9) * np.eye(11)[0], "no equal steps"),
+        (lambda rows: rows[:1], "has 1 states, allowed: at least 2"),
+        (lambda rows: rows[:0], "has no /vehicle|has 0 states"),
+        (lambda rows: rows[[0, 1, 1, 2]], "must go on in time"),
+    ],
+    ids=["one", "four", "jitter", "single", "none", "twice"],
+)
+def test_what_is_no_even_flight_is_refused(
+    path: Path, tmp_path: Path, change: Callable[[np.ndarray], np.ndarray], message: str
+) -> None:
+    flight = changed(read_log(path), tmp_path, change)
+    (tmp_path / "s.toml").write_text(RECORDED.format("changed.mcap"))
+    for attempt in (
+        flight.step,
+        lambda: run_scenario(load_scenario(tmp_path / "s.toml"), tmp_path / "new.mcap"),
+    ):
+        with pytest.raises(InputError, match=message) as caught:
+            attempt()
+        assert "changed" in str(caught.value)
+    assert not (tmp_path / "new.mcap").exists()
+
+
+def test_a_foreign_start_and_sign_are_put_right(path: Path, tmp_path: Path) -> None:
+    """Time begins at 0 and quaternions do not flip, whoever wrote them."""
+
+    def foreign(rows: np.ndarray) -> np.ndarray:
+        rows[:, 0] += 100.0
+        rows[9:, 1:5] *= -1.0
+        return rows
+
+    vehicle = changed(read_log(path), tmp_path, foreign).vehicle()
+    before = vehicle.state
+    assert before.time == 0.0
+    while vehicle.advance():
+        assert np.dot(before.q_NB, vehicle.state.q_NB) > 0.9
+        before = vehicle.state
+
+
+def test_a_recording_flies_as_it_did(path: Path, tmp_path: Path) -> None:
+    """The same states give the same bytes of everything that follows, also for a part of it."""
+    log = read_log(path)
+    (tmp_path / "log.mcap").write_bytes(path.read_bytes())
+    (tmp_path / "s.toml").write_text(RECORDED.format("log.mcap"))
+    scenario = load_scenario(tmp_path / "s.toml")
+    assert scenario.flight.length() == log.column("/vehicle", "time_s")[-1]
+    assert scenario.inputs() == (tmp_path / "log.mcap",)
+    run_scenario(scenario, tmp_path / "again.mcap")
+    again = read_log(tmp_path / "again.mcap")
+    for topic, table in log.tables.items():
+        assert np.array_equal(table.values, again.tables[topic].values), topic
+    short = load_scenario(tmp_path / "s.toml", ["duration_s=0.2", "cueing.method=attitude"])
+    assert run_scenario(short, tmp_path / "short.mcap").duration == pytest.approx(0.2, abs=0.01)

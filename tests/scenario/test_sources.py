@@ -4,10 +4,12 @@ from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
 
+import numpy as np
 import pytest
 
 import atlas_cueing.scenario
 from atlas_cueing.errors import InputError
+from atlas_cueing.recording import write_vehicle_log
 from atlas_cueing.scenario import load_scenario
 from atlas_cueing.scenario.source_table import SourceTable
 from atlas_cueing.scenario.vehicle_table import DEFAULT_SOURCE, SOURCES
@@ -36,8 +38,17 @@ def test_every_table_of_a_source_is_in_the_one_list() -> None:
     assert EXAMPLES.keys() == SOURCES.keys(), "a source without an example is not tested below"
 
 
+def flown(folder: Path) -> None:
+    """The log that RECORDING plays."""
+    rows = np.zeros((3, 11))
+    rows[:, 0], rows[:, 1], rows[:, -1] = 0.1 * np.arange(3), 1.0, -9.80665
+    (folder / "logs").mkdir()
+    (folder / "logs/flown.mcap").write_bytes(write_vehicle_log(rows, {}, {}))
+
+
 @pytest.mark.parametrize("text", [text for texts in EXAMPLES.values() for text in texts])
 def test_a_flight_answers_before_it_flies(tmp_path: Path, text: str) -> None:
+    flown(tmp_path)
     (tmp_path / "s.toml").write_text(text)
     scenario = load_scenario(tmp_path / "s.toml")
     flight = scenario.live_flight
