@@ -16,7 +16,7 @@ if there are any. Equation numbers are those of the module docstrings:
 
 from .balance import LARGEST_USE, Loads, balance, platform_loads
 from .body import Body, Part, body_of, inertia_tensor, is_realizable
-from .contact import Drive, Preload, Support, WheelContact
+from .contact import UNLIMITED, Drive, Preload, Support, WheelContact
 from .least_use import least_use_drive
 from .model import LoadModel
 from .reserve import Reserve, reserve
@@ -24,6 +24,7 @@ from .tick_loads import TickLoads, WheelLoads
 
 __all__ = [
     "LARGEST_USE",
+    "UNLIMITED",
     "Body",
     "Drive",
     "LoadModel",

@@ -17,7 +17,7 @@ def platform_file(case: dict) -> str:
         f"[[wheel]]\ncontact = {contact}\ndrive = {drive}\nradius_m = {radius}"
         for contact, drive, radius in wheels
     ]
-    limits = presets()["atlas-2.9m"].read_text().split("[wheel_limits]")[1]
+    limits = presets()["atlas-2.9m"].read_text().split("[wheel_limits]")[1].split("[[part]]")[0]
     return (
         f'name = "mine"\n[sphere]\nradius_m = {case["sphere_radius_m"]}\n'
         + "\n".join(tables)
