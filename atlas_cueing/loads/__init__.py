@@ -16,6 +16,7 @@ if there are any. Equation numbers are those of the module docstrings:
 
 from .balance import LARGEST_USE, Loads, balance, platform_loads
 from .body import Body, Part, body_of, inertia_tensor, is_realizable
+from .columns import load_columns
 from .contact import UNLIMITED, Drive, Preload, Support, WheelContact
 from .least_use import least_use_drive
 from .model import LoadModel
@@ -41,6 +42,7 @@ __all__ = [
     "inertia_tensor",
     "is_realizable",
     "least_use_drive",
+    "load_columns",
     "platform_loads",
     "reserve",
 ]
