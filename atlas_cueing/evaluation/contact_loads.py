@@ -19,7 +19,7 @@ class ContactLoads:
     - normal_min_n, normal_max_n: of any wheel; lift_off_share: share of ticks at which one does not
       touch;
     - preload_needed_n: largest further force straight down with which no wheel slips, negative for
-      a reserve;
+      a reserve, 0 where no wheel slips nor carries any of it;
     - wheel_torque_max_n_m, wheel_torque_rms_n_m: at the axles; of the wheel with the largest rms;
     - power_peak_w, power_regenerated_peak_w: of all wheels together, to and from the motion;
     - energy_j, energy_regenerated_j: to and from the motion at each axle, summed (trapezoids);
@@ -95,7 +95,7 @@ class ContactLoads:
             "normal_min_n": 0.0 if empty else least,
             "normal_max_n": most,
             "lift_off_share": self._lifted / count,
-            "preload_needed_n": 0.0 if empty else preload,
+            "preload_needed_n": 0.0 if empty or preload == -LARGEST_FORCE else preload,
             "wheel_torque_max_n_m": self._torque,
             "wheel_torque_rms_n_m": float(rms.max()),
             "motor_speed_max_rad_s": self._model.drive.gear * self._speed,
