@@ -78,6 +78,7 @@ def _head(result: "RunResult") -> list[tuple[str, str]]:
         ("log", str(result.log)),
         _flown_row(result),
         ("violations", str(len(result.evaluation.violations))),
+        *(("remark", remark) for remark in result.evaluation.remarks),
     ]
 
 

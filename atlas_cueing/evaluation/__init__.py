@@ -25,6 +25,7 @@ recorder and review both use (`gathered`).
 """
 
 from .consistency import Consistency
+from .contact_loads import ContactLoads, load_violations, traction_lines
 from .engaged_segment import engaged_segment
 from .limit_use import LimitUse, by_limit, violations
 from .metric import Cell, Metric, Phrase, Shown
@@ -37,6 +38,7 @@ __all__ = [
     "Cell",
     "Columns",
     "Consistency",
+    "ContactLoads",
     "LimitUse",
     "Metric",
     "Metrics",
@@ -46,6 +48,8 @@ __all__ = [
     "by_limit",
     "engaged_segment",
     "gathered",
+    "load_violations",
     "shown",
+    "traction_lines",
     "violations",
 ]

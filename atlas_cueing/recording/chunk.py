@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..rotation import Vec3
 from ..rotations import Array
-from ..signals import ROW, TIMING, TOPICS, Topic, direction_error, felt
+from ..signals import ROW, TIMING, TOPICS, LoadColumns, Topic, direction_error, felt
 from .schemas import TF
 from .transforms import RATE_HZ, put_transforms, transform_template
 from .wire import Records, Times, flat_dtype, flat_template, put, record_content, repeat
@@ -172,6 +172,12 @@ class ChunkEncoder:
 def with_felt(rows: Array, head_S: Vec3) -> Array:
     """Append the fields of /felt to rows (n, ROW or LIVE_ROW); head_S in m, frame S."""
     return np.hstack([rows, felt_columns(rows, head_S)])
+
+
+def with_loads(ticks: Array, loads: LoadColumns) -> Array:
+    """Append the fields of /loads to ticks (n, fields of TOPICS or of LIVE_TOPICS)."""
+    columns = loads(ticks[:, _Q], ticks[:, _W], ticks[:, _ALPHA], ticks[:, _A])
+    return np.column_stack([ticks, ticks[:, _MOTION], columns])
 
 
 def felt_columns(rows: Array, head_S: Vec3) -> Array:

@@ -17,14 +17,14 @@ from numpy.typing import NDArray
 
 from ..errors import LogError
 from ..rotations import Array
-from ..signals import LIVE_TOPICS, StateChange
+from ..signals import ALL_TOPICS, StateChange
 from .message_starts import windows
 from .schemas import STATUS, TF, flat_fields, message_class, number_fields
 from .transforms import POSE, pose_of, take_transforms, transform_template
 from .wire import HEAD, RECORD_HEAD, Records, Times, flat_dtype, record_content, take
 
 Starts: TypeAlias = NDArray[np.int64]
-FIELDS = {topic.name: topic.fields for topic in LIVE_TOPICS}
+FIELDS = {topic.name: topic.fields for topic in ALL_TOPICS}
 OUR_SCHEMAS = "atlas."  # what the names of our schemas begin with
 _HEAD = np.dtype(HEAD)
 

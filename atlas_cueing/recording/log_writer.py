@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..signals import LIVE_TOPICS, Topic
+from ..signals import ALL_TOPICS, Topic
 from .chunk import EncodedChunk
 from .container import Container
 from .log import Log, TopicColumns
@@ -78,7 +78,7 @@ def _chunk(parts: list[tuple[_Stream, slice]]) -> EncodedChunk:
 
 
 def _numbers(container: Container, topic: str, table: TopicColumns) -> _Stream:
-    known = {each.name: each.schema for each in LIVE_TOPICS}
+    known = {each.name: each.schema for each in ALL_TOPICS}
     name = known.get(topic, "atlas." + re.sub(r"\W", "_", topic.strip("/")).title())
     channel = container.add_channel(topic, name, flat_schema(Topic(topic, name, table.fields)))
     template = flat_template(channel, len(table.fields))

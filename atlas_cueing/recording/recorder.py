@@ -15,15 +15,25 @@ from ..errors import OutputError
 from ..printable import utf8
 from ..rotation import Vec3
 from ..rotations import Array
-from ..signals import LIVE_ROW, LIVE_TOPICS, ROW, TOPICS, Tick, tick_row
-from .chunk import ELAPSED, ChunkEncoder, Extra, with_felt
+from ..signals import (
+    ALL_TOPICS,
+    LIVE_ROW,
+    LIVE_TOPICS,
+    LOADS,
+    ROW,
+    TOPICS,
+    LoadColumns,
+    Tick,
+    tick_row,
+)
+from .chunk import ELAPSED, ChunkEncoder, Extra, with_felt, with_loads
 from .container import Container
 from .schemas import STATUS, STATUS_SCHEMA, TF, message_class, schema_of, status_schema
 from .wire import EPOCH_NS, LATEST_S, Times, live_log_times, log_times, record_template
 
 RUN_METADATA = "atlas.run"
 MAX_CHUNK_TICKS = 16384  # 16 MB of messages: well inside what the reader will unpack
-_NAMES = (*(topic.name for topic in LIVE_TOPICS), STATUS, TF)
+_NAMES = (*(topic.name for topic in ALL_TOPICS), STATUS, TF)
 # Neither a link is followed nor a FIFO's reader waited for.
 _OPENING = os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW | os.O_NONBLOCK
 _BEFORE_START = -1.0  # s; no tick yet
@@ -51,6 +61,7 @@ class McapRecorder:
         skip_topics: Collection[str] = (),
         started_ns: int | None = None,
         observer: Callable[[Array], None] | None = None,
+        loads: LoadColumns | None = None,
     ) -> None:
         """Open the log.
 
@@ -66,7 +77,9 @@ class McapRecorder:
                 2000-01-01 on.
             observer: called with the numbers of each chunk that was written, (n, fields of TOPICS,
                 or of LIVE_TOPICS for a live log), also those of topics left out; if it raises,
-                `append` and `flush` do, and it is not called again.
+                `append` and `flush` do, and it is not called again. The fields of /loads follow
+                where the log has it.
+            loads: makes the numbers of /loads, which is left out without it.
 
         Raises OutputError when the file cannot be written, a topic is unknown, or a chunk is too
         large or empty.
@@ -79,7 +92,9 @@ class McapRecorder:
         self._rows = bytearray()
         self._started = started_ns
         self._observer = observer
+        self._loads = loads
         self._topics = TOPICS if started_ns is None else LIVE_TOPICS
+        self._topics = (*self._topics, LOADS) if loads else self._topics
         self._row = ROW if started_ns is None else LIVE_ROW
         self._full = chunk_ticks * self._row * 8  # bytes of rows that make a chunk
         self._statuses: list[tuple[float, bytes]] = []
@@ -190,6 +205,7 @@ class McapRecorder:
         self._latest = float(rows[-1, 0]) if len(rows) else self._latest
         self._latest_log_time = int(times[-1]) if len(rows) else self._latest_log_time
         ticks = with_felt(rows, self._head_S)
+        ticks = with_loads(ticks, self._loads) if self._loads else ticks
         chunk = self._encoder.encode(ticks, times, self._status_records(ticks[:, 0], times))
         self._statuses = []
         try:

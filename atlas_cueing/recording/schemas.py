@@ -15,7 +15,7 @@ from google.protobuf.descriptor_pb2 import (
 )
 
 from ..errors import LogError
-from ..signals import LIVE_TOPICS, Topic
+from ..signals import ALL_TOPICS, Topic
 
 STATUS = "/status"
 TF = "/tf"
@@ -67,7 +67,7 @@ def schema_of(topic: str) -> tuple[str, bytes]:
         return STATUS_SCHEMA, status_schema()
     if topic == TF:
         return TF_SCHEMA, transforms_schema()
-    table = {t.name: t for t in LIVE_TOPICS}
+    table = {t.name: t for t in ALL_TOPICS}
     return table[topic].schema, flat_schema(table[topic])
 
 

@@ -10,6 +10,7 @@ from ..evaluation import RunColumns
 from ..recording import Log, read_log
 from ..rotations import Array
 from ..scenario import Platform
+from ..signals import LOADS
 from .attachments import platform_of
 from .flight_alone import is_flight_alone
 
@@ -107,9 +108,10 @@ def largest_content(path: Path) -> int:
 
 def _even(log: Log) -> Log:
     """The log with all topics cut to the length of the shortest."""
-    lengths = {topic: len(log.column(topic, "time_s")) for topic in TOPICS}
+    present = [*TOPICS, LOADS.name] if LOADS.name in log.tables else TOPICS
+    lengths = {topic: len(log.column(topic, "time_s")) for topic in present}
     if len(set(lengths.values())) == 1:
         return log
     shortest = min(lengths.values())
-    tables = {t: replace(log.tables[t], values=log.tables[t].values[:shortest]) for t in TOPICS}
+    tables = {t: replace(log.tables[t], values=log.tables[t].values[:shortest]) for t in present}
     return replace(log, tables=tables)

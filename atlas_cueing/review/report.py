@@ -63,6 +63,7 @@ def write_page(found: Review, file: str | Path) -> None:
             ),
             in_space(run),
         ),
+        *_loads(found),
         *_punctuality(found),
         ("Use of the limits", limit_bars(run)),
         ("Power spectra, summed over the axes", spectra(run)),
@@ -117,6 +118,21 @@ def _punctuality(found: Review) -> "list[tuple[str, Plot]]":
     from .plots.lateness import punctuality
 
     return [("Punctuality of the real-time loop", punctuality(found.run))]
+
+
+def _loads(found: Review) -> "list[tuple[str, Plot]]":
+    """The sections of the loads; none for a platform without masses."""
+    if not found.run.platform.has_loads:
+        return []
+    from .plots.loads import loads_over_time, torque_and_speed
+
+    return [
+        (f"Loads of contacts and drives: {_ZOOM}", loads_over_time(found.run)),
+        (
+            "Torque against speed at the axles, in the envelope of a drive",
+            torque_and_speed(found.run),
+        ),
+    ]
 
 
 def _headlines(comparison: Comparison) -> str:

@@ -7,6 +7,7 @@ import numpy as np
 
 from ..run import evaluate_flight
 from .checks.actuators import check_actuators
+from .checks.contact_loads import check_contact_loads, traction_notes
 from .checks.deadlines import check_deadlines, punctuality_notes
 from .checks.felt_force import check_felt_force
 from .checks.finite import check_finite
@@ -87,6 +88,7 @@ def judge(run: RecordedRun) -> Review:
         *check_log_times(run),
         *check_deadlines(run),
     ]
+    remarks: tuple[str, ...] = ()
     with np.errstate(all="ignore"):  # numbers out of range have been found by now
         if not any(finding.check == "ticks lost" for finding in found):
             found += [
@@ -94,8 +96,10 @@ def judge(run: RecordedRun) -> Review:
                 *check_actuators(run),
                 *check_felt_force(run),
                 *check_limited_flags(run),
+                *check_contact_loads(run),
             ]
+            remarks = traction_notes(run)
         figures = evaluate_flight(run.log, run.flight, run.platform).metrics
     found.sort(key=lambda finding: -1.0 if finding.time is None else finding.time)
-    lines = (*run.log.notes, *state_notes(run), *punctuality_notes(run))
+    lines = (*run.log.notes, *state_notes(run), *punctuality_notes(run), *remarks)
     return Review(run, tuple(found), lines, figures)

@@ -6,6 +6,7 @@ The composition root that run, batch, live and review have in common.
 from .build import build_pipeline, prepare
 from .evaluate import Evaluation, Evaluator, evaluate_flight, evaluate_log
 from .fly import run_scenario
+from .load_promises import broken_promises
 from .open_recorder import PACKAGES, open_recorder
 from .open_vehicle import flight_length, open_vehicle
 from .output import PAGE, check_output
@@ -21,6 +22,7 @@ __all__ = [
     "LiveFigures",
     "RunResult",
     "StopRequest",
+    "broken_promises",
     "build_pipeline",
     "check_output",
     "evaluate_flight",

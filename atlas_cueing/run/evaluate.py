@@ -10,10 +10,13 @@ from ..errors import LogError
 from ..evaluation import (
     BLOCK_TICKS,
     Consistency,
+    ContactLoads,
     LimitUse,
     Metrics,
     RunColumns,
     engaged_segment,
+    load_violations,
+    traction_lines,
     violations,
 )
 from ..recording import Log, read_log
@@ -26,11 +29,15 @@ _NUMBERS = sum(len(topic.fields) for topic in TOPICS)  # of a tick
 
 @dataclass(frozen=True, slots=True)
 class Evaluation:
-    """Metrics and limit use as `evaluation` names them, and one line for each violation."""
+    """Metrics and limit use as `evaluation` names them, and one line for each violation.
+
+    remarks: what is worth knowing and no violation, a line each.
+    """
 
     metrics: dict[str, float] = field(default_factory=dict)
     limit_use: dict[str, float] = field(default_factory=dict)
     violations: tuple[str, ...] = ()
+    remarks: tuple[str, ...] = ()
 
 
 def evaluate_log(log: str | Path, platform: Platform) -> Evaluation:
@@ -72,7 +79,8 @@ class Evaluator:
         self._begin()
 
     def add(self, ticks: NDArray[np.float64]) -> None:
-        """Take in the ticks that follow, (n, fields of TOPICS)."""
+        """Take in the ticks that follow, (n, fields of TOPICS and more)."""
+        ticks = ticks[:, :_NUMBERS]
         while len(ticks):
             part, ticks = np.split(ticks, [BLOCK_TICKS - self._held])
             self._block[self._held : self._held + len(part)] = part
@@ -106,6 +114,8 @@ class _Found:
             if geometry.slip_free
             else None
         )
+        self._model = platform.load_model() if platform.has_loads else None
+        self._loads = ContactLoads(self._model) if self._model else None
 
     def add(self, flight: RunColumns) -> None:
         """Take in the ticks that follow, all of them ridden."""
@@ -127,9 +137,18 @@ class _Found:
         self._use.add(block)
         if self._consistency:
             self._consistency.add(block)
+        if self._loads:
+            self._loads.add(block)
 
     def evaluation(self) -> Evaluation:
         """All figures, and the violations among them."""
         use = self._use.figures()
         trust = self._consistency.figures() if self._consistency else {}
-        return Evaluation(self._metrics.figures() | trust, use, tuple(violations(use)))
+        loads = self._loads.figures() if self._loads else {}
+        found, remarks = violations(use), list[str]()
+        if self._model:
+            found += load_violations(loads, self._model)
+            slips = loads["traction_slip_share"] > 0.0 and self._model.traction_finding
+            (found if slips else remarks).extend(traction_lines(loads, self._model))
+        metrics = self._metrics.figures() | trust | loads
+        return Evaluation(metrics, use, tuple(found), tuple(remarks))

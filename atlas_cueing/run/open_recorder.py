@@ -5,6 +5,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Final
 
+from ..loads import load_columns
 from ..recording import McapRecorder
 from ..rotations import Array
 from ..scenario import Scenario
@@ -37,10 +38,10 @@ def open_recorder(
     Raises:
         OutputError: the log cannot be written there.
     """
-    recording = scenario.file.recording
+    recording, platform = scenario.file.recording, scenario.platform
     return McapRecorder(
         log,
-        head_S=scenario.platform.head_S,
+        head_S=platform.head_S,
         metadata={**(flown or {}), **_metadata(scenario, flown is None), **more},
         attachments=scenario.attachments() if attachments is None else attachments,
         # a live log is written out by time, in chunks of the recorder's own length
@@ -48,6 +49,7 @@ def open_recorder(
         skip_topics=recording.skip,
         observer=observer,
         started_ns=started_ns,
+        loads=load_columns(platform.load_model()) if platform.has_loads else None,
     )
 
 

@@ -61,6 +61,7 @@ class RunResult:
             "duration_s": self.duration,
             **(_live_json(self.live) if self.live else {"wall_s": self.wall}),
             "violations": list(self.evaluation.violations),
+            "remarks": list(self.evaluation.remarks),
             "metrics": self.evaluation.metrics,
             "limit_use": self.evaluation.limit_use,
         }

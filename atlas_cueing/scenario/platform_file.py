@@ -1,6 +1,7 @@
 """The platform file: geometry, limits and where the rider's head is."""
 
 from functools import cache, lru_cache
+from math import cos, radians
 from pathlib import Path
 from typing import Annotated, Any, TypeAlias
 from unicodedata import category, normalize
@@ -8,9 +9,23 @@ from unicodedata import category, normalize
 from pydantic import BeforeValidator, ValidationInfo, field_validator, model_validator
 
 from ..errors import InputError
+from ..loads import UNLIMITED, LoadModel, WheelContact, body_of
 from ..rotation import ZERO, Vec3, add, norm
 from ..signals import StageLimits, WheelLimits
-from ..wheels import Geometry, OmniWheel
+from ..wheels import Geometry, OmniWheel, RollerRows
+from .load_tables import (
+    SEVERAL,
+    DriveTable,
+    Force,
+    Friction,
+    Inertia,
+    PartTable,
+    PreloadTable,
+    Stiffness,
+    SupportTable,
+    TractionTable,
+    missing_keys,
+)
 from .tables import (
     ONE_OR_THREE,
     THREE,
@@ -20,6 +35,7 @@ from .tables import (
     number,
     object_to,
     refuse,
+    whole,
 )
 
 Direction: TypeAlias = Annotated[tuple[Finite, Finite, Finite], THREE]
@@ -64,11 +80,23 @@ class SphereTable(ScenarioTable):
 
 
 class WheelTable(ScenarioTable):
-    """One `[[wheel]]`: directions in W, of any length."""
+    """One `[[wheel]]`: directions in W, of any length.
+
+    roller_deg: of a Mecanum wheel, the angle between roller axis (`drive`) and rim direction. The
+    last three keys describe two rows of rollers; loads need friction.
+    """
 
     contact: Direction
     drive: Direction
     radius_m: Length
+    roller_deg: Annotated[float, number(0.0, 80.0)] | None = None
+    inertia_kg_m2: Inertia | None = None
+    friction: Friction | None = None
+    stiffness_n_m: Stiffness | None = None
+    load_limit_n: Force | None = None
+    row_offset_m: Annotated[float, number(0.0, 10.0)] | None = None
+    roller_profile_radius_m: Annotated[float, number(0.0, 10.0)] | None = None
+    rollers_per_row: Annotated[int, whole(3, 1000)] | None = None
 
     @model_validator(mode="after")
     def _is_a_wheel(self) -> "WheelTable":
@@ -76,11 +104,46 @@ class WheelTable(ScenarioTable):
             self.wheel()
         except InputError as error:
             raise object_to(str(error)) from None
+        keys = (self.row_offset_m, self.roller_profile_radius_m, self.rollers_per_row)
+        if None in keys and any(key is not None for key in keys):
+            raise object_to(
+                "allowed: all or none of row_offset_m, roller_profile_radius_m, rollers_per_row"
+            )
         return self
 
     def wheel(self) -> OmniWheel:
         """The wheel with unit directions and a drive exactly tangent to the sphere."""
-        return _wheel(self.contact, self.drive, self.radius_m)
+        return _wheel(self.contact, self.drive, self.effective_radius_m)
+
+    @property
+    def effective_radius_m(self) -> float:
+        """The radius that turns the sphere along the drive: of a Mecanum wheel r cos(roller)."""
+        if self.roller_deg is None:
+            return self.radius_m
+        return self.radius_m * cos(radians(self.roller_deg))
+
+    @property
+    def rows(self) -> RollerRows | None:
+        """Its two rows of rollers; None for a wheel with one, or none described."""
+        offset, profile = self.row_offset_m, self.roller_profile_radius_m
+        if offset is None or profile is None or self.rollers_per_row is None:
+            return None
+        return RollerRows(offset, profile, self.rollers_per_row)
+
+    def load_contact(self, drive: DriveTable) -> WheelContact:
+        """The wheel as loads need it, with motor and losses of `drive`."""
+        wheel = self.wheel()
+        return WheelContact(
+            wheel.contact,
+            wheel.drive,
+            wheel.radius,
+            friction=self.friction or 0.0,
+            inertia=(self.inertia_kg_m2 or 0.0) + drive.reflected_inertia,
+            viscous=drive.viscous_n_m_s or 0.0,
+            coulomb=drive.coulomb_n_m or 0.0,
+            stiffness=self.stiffness_n_m or 1.0,
+            load_limit=self.load_limit_n,
+        )
 
 
 @lru_cache(maxsize=64)  # of ten thousand platforms that a sweep makes, few have wheels of their own
@@ -125,6 +188,11 @@ class Platform(ScenarioTable):
     wheel_limits: WheelLimitsTable
     stage_limits: StageLimitsTable
     rider: RiderTable = RiderTable()
+    drive: DriveTable | None = None
+    preload: Annotated[tuple[PreloadTable, ...], SEVERAL] | None = None
+    support: Annotated[tuple[SupportTable, ...], SEVERAL] | None = None
+    traction: TractionTable | None = None
+    part: Annotated[tuple[PartTable, ...], SEVERAL] | None = None
 
     @field_validator("rider")
     @classmethod
@@ -133,6 +201,59 @@ class Platform(ScenarioTable):
         if sphere and norm(rider.head_m) > sphere.radius_m:
             raise refuse(f"head_m within the sphere, |head_m| <= {sphere.radius_m:g}")
         return rider
+
+    @field_validator("part")
+    @classmethod
+    def _parts_in_sphere(
+        cls, parts: tuple[PartTable, ...] | None, info: ValidationInfo
+    ) -> tuple[PartTable, ...] | None:
+        sphere = info.data.get("sphere")
+        if sphere and any(norm(part.com_m) > sphere.radius_m for part in parts or ()):
+            raise refuse(f"every com_m within the sphere, |com_m| <= {sphere.radius_m:g}")
+        missing = missing_keys(info.data.get("wheel", ()), info.data.get("support"))
+        if parts and missing:
+            raise object_to(f"with [[part]] there have to be {', '.join(missing)} too")
+        return parts
+
+    @model_validator(mode="after")
+    def _has_definite_loads(self) -> "Platform":
+        if self.has_loads:
+            try:
+                self.load_model()
+            except InputError as error:
+                raise object_to(str(error)) from None
+        return self
+
+    @property
+    def has_loads(self) -> bool:
+        """Whether loads are known: the platform has masses, and its wheels can turn it."""
+        return self.part is not None and self.geometry().slip_free
+
+    def load_model(self) -> LoadModel:
+        """What the loads depend on.
+
+        Raises InputError for a platform without masses, and for contacts that cannot hold a force
+        along every axis.
+        """
+        if self.part is None:
+            raise InputError(
+                f"platform {self.name!r} has no masses; give it [[part]] tables (mass_kg, com_m,"
+                " inertia_kg_m2), and each [[wheel]] its friction"
+            )
+        drive, traction = self.drive or DriveTable(), self.traction or TractionTable()
+        model = LoadModel(
+            name=self.name,
+            sphere_radius=self.sphere.radius_m,
+            body=body_of([part.part() for part in self.part]),
+            wheels=tuple(wheel.load_contact(drive) for wheel in self.wheel),
+            preloads=tuple(each.preload() for each in self.preload or ()),
+            supports=tuple(each.support() for each in self.support or ()),
+            drive=self.drive.drive() if self.drive else UNLIMITED,
+            traction_margin=traction.margin,
+            traction_finding=traction.report == "finding",
+        )
+        model.check()
+        return model
 
     def geometry(self) -> Geometry:
         """The kinematics; a singular one is refused by whoever needs the drive."""
@@ -186,4 +307,5 @@ def without_room(platform: Platform, dt: float) -> list[tuple[tuple[str, str], f
 @cache
 def presets() -> dict[str, Path]:
     """The platforms that ship with the package: name to file."""
-    return {path.stem: path for path in sorted((Path(__file__).parent / "presets").glob("*.toml"))}
+    files = {path.stem: path for path in (Path(__file__).parent / "presets").glob("*.toml")}
+    return dict(sorted(files.items()))

@@ -3,13 +3,16 @@
 from .attitude_jump import attitude_jump
 from .felt import STANDARD_GRAVITY, direction_error, felt
 from .limits import StageLimits, WheelLimits
+from .load_columns import LoadColumns
 from .seams import Sink, Vehicle, WheelDrive
 from .state_change import StateChange
 from .states import Cue, Motion, Tick, Timing, VehicleState, WheelSpeeds
 from .topics import (
+    ALL_TOPICS,
     LIVE_ROW,
     LIVE_STATES,
     LIVE_TOPICS,
+    LOADS,
     ROW,
     TIMING,
     TOPICS,
@@ -19,14 +22,17 @@ from .topics import (
 )
 
 __all__ = [
+    "ALL_TOPICS",
     "LIVE_ROW",
     "LIVE_STATES",
     "LIVE_TOPICS",
+    "LOADS",
     "ROW",
     "STANDARD_GRAVITY",
     "TIMING",
     "TOPICS",
     "Cue",
+    "LoadColumns",
     "Motion",
     "Sink",
     "StageLimits",

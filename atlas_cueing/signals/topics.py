@@ -73,6 +73,25 @@ TIMING = Topic(
 LIVE_TOPICS = (*TOPICS[:-1], TIMING, TOPICS[-1])
 """What a live log holds; as in TOPICS, all but the last come from the loop."""
 
+LOADS = Topic(
+    "/loads",
+    "atlas.Loads",
+    (
+        "time_s",
+        *(
+            f"{name}{k}{unit}"
+            for name, unit in (("f", "_n"), ("n", "_n"), ("t", "_n_m"), ("p", "_w"), ("use", ""))
+            for k in (1, 2, 3)
+        ),
+    ),
+)
+"""Runs on a platform with masses only, once a tick; derived from the motion as /felt is.
+
+Drive and normal force, torque, power and traction use of each wheel (`loads`)."""
+
+ALL_TOPICS = (*LIVE_TOPICS, LOADS)
+"""Whatever topic of flat doubles a log may hold."""
+
 
 ROW = sum(len(topic.fields) for topic in TOPICS[:-1])  # numbers in a row of `tick_row`
 LIVE_ROW = ROW + len(TIMING.fields)  # in a row of `live_row`: the fields of /timing follow

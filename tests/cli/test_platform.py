@@ -17,7 +17,7 @@ def platform_file(case: dict) -> str:
         f"[[wheel]]\ncontact = {contact}\ndrive = {drive}\nradius_m = {radius}"
         for contact, drive, radius in wheels
     ]
-    limits = presets()["atlas-2.9m"].read_text().split("[wheel_limits]")[1]
+    limits = presets()["atlas-2.9m"].read_text().split("[wheel_limits]")[1].split("[[part]]")[0]
     return (
         f'name = "mine"\n[sphere]\nradius_m = {case["sphere_radius_m"]}\n'
         + "\n".join(tables)
@@ -79,3 +79,57 @@ def test_bad_input(command: Command, bad: str) -> None:
     assert (ended.status, ended.out) == (2, "")
     assert ended.err.startswith("error: ")
     assert "Traceback" not in ended.err
+
+
+def test_loads_for_people(command: Command) -> None:
+    ended = command("platform", "atlas-2.9m", "--loads")
+    assert (ended.status, ended.err) == (0, "")
+    assert "remark: stage_limits.acceleration_m_s2 along x: 6 is allowed" in ended.out
+    assert "wheel_space_inertia_kg_m2" in ended.out
+
+
+def test_loads_for_programs(command: Command) -> None:
+    table = json.loads(command("platform", "atlas-2.9m", "--loads", "--json").out)
+    assert table["rest_normal_force_n"] == pytest.approx([2491.8850475578415] * 3)
+    assert table["lift_off_acceleration_horizontal_m_s2"] == pytest.approx(5.843555184407005)
+    assert table["preload_gain"] == pytest.approx([0.5185749] * 3)
+    assert table["sphere_acceleration_by_torque_about_worst_axis_rad_s2"] > 10.0
+    assert table["stage_travel_m"] == [1.0, 1.0, 0.75]
+    assert len(table["broken_promises"]) == 4
+
+
+def test_the_sphere_of_the_slip_studies(command: Command) -> None:
+    """50 kg at 40 deg and mu 0.5: from 3.87 rad/s2 about the worst axis a wheel slips."""
+    table = json.loads(command("platform", "atlas-1.5m", "--loads", "--json").out)
+    by_traction = "sphere_acceleration_by_traction_about_worst_axis_rad_s2"
+    assert table[by_traction] == pytest.approx(3.87, abs=0.005)
+    assert table["sphere_acceleration_by_traction_about_axes_rad_s2"][2] == pytest.approx(
+        11.68711036881401
+    )
+
+
+def test_promises_are_findings_where_the_platform_says_so(command: Command, tmp_path: Path) -> None:
+    text = presets()["atlas-2.9m"].read_text()
+    (tmp_path / "mine.toml").write_text(text.replace('report = "remark"', 'report = "finding"'))
+    ended = command("platform", "mine.toml", "--loads")
+    assert ended.status == 1
+    assert ended.err.count("\n") == 4
+    assert "mine.toml: stage_limits.acceleration_m_s2 along x" in ended.err
+    assert command("platform", "mine.toml").status == 0
+
+
+def test_loads_without_masses(command: Command, tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_text(platform_file(CASES[0]))
+    ended = command("platform", "mine.toml", "--loads")
+    assert (ended.status, ended.out) == (2, "")
+    assert "has no masses; give it [[part]] tables" in ended.err
+
+
+def test_double_rows(command: Command) -> None:
+    table = json.loads(command("platform", "atlas-tabletop", "--json").out)
+    assert np.degrees(table["row_tilt_rad"]) == pytest.approx([2.218] * 3, abs=1e-3)
+    assert table["row_largest_correction"] == pytest.approx(0.055, abs=5e-4)
+    assert table["row_mean_correction"] == pytest.approx(1.5e-3, abs=5e-5)
+    assert 0.040 < table["row_ripple_rms"] < 0.049
+    assert 0.2 < np.degrees(table["row_drift_mean_rad_per_turn"]) < 2.7
+    assert "row_tilt_rad" not in json.loads(command("platform", "atlas-2.9m", "--json").out)

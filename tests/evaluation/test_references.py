@@ -7,15 +7,18 @@ from atlas_cueing.evaluation import (
     BLOCK_TICKS,
     DECLARED,
     Consistency,
+    ContactLoads,
     LimitUse,
     Metrics,
     gathered,
 )
+from atlas_cueing.scenario import load_platform
 
 from . import references
 from .flights import any_flight
 from .test_blocks import STAGE, TO_WHEELS, WHEELS
 
+MODEL = load_platform("atlas-2.9m").load_model()
 TO_SPHERE = np.linalg.inv(TO_WHEELS)
 counts = pytest.mark.parametrize("count", [50, 2000, BLOCK_TICKS + 700])
 
@@ -56,4 +59,5 @@ def test_every_metric_is_declared_and_every_declared_one_is_computed() -> None:
     """In one order: that of `--json`, of `compare` and of the columns of a batch."""
     flight = any_flight(10, 14)
     computed = gathered(Metrics(), flight) | gathered(Consistency(TO_WHEELS, TO_SPHERE), flight)
+    computed |= gathered(ContactLoads(MODEL), flight)
     assert list(computed) == list(DECLARED)

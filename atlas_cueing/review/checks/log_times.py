@@ -3,7 +3,7 @@
 import numpy as np
 
 from ...rotations import Array
-from ...signals import LIVE_TOPICS, TIMING
+from ...signals import ALL_TOPICS, TIMING
 from ..finding import Finding, exceeding
 from ..recorded_run import RecordedRun
 from .rounding import rounding
@@ -20,7 +20,7 @@ def check_log_times(run: RecordedRun) -> list[Finding]:
     """
     tables = {
         topic.name: run.log.tables[topic.name]
-        for topic in LIVE_TOPICS
+        for topic in ALL_TOPICS
         if topic.name in run.log.tables
     }
     found = []
