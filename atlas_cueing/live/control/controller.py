@@ -146,7 +146,7 @@ class LiveController:
         """Hear the drives; what they tell may be a fault."""
         if self._drives is None:
             return
-        if fault := self._drives.watch(slot.now()):
+        if fault := self._drives.watch(slot.now(), self._platform.tracking):
             self._fail(fault)
         self._changes += [(self.state, note) for note in self._drives.notes()]
 

@@ -45,7 +45,8 @@ class DriveMonitor:
         self._came = self._since = -inf  # the newest status, this kind of trouble, s
         self._off = self._kind = self._told = ""
         self._ever_moved = False
-        self._moved: int | None = None  # when the last command that moves is due, ns
+        self._moving = False  # by the commands, and not yet at rest by the drives' words
+        self._at_rest: int | None = None  # when the first command at rest is due, ns
         self._notes: list[str] = []
         self.trouble = "nothing has been heard of the drives yet"
         self.heard = 0
@@ -60,20 +61,21 @@ class DriveMonitor:
     @property
     def settled(self) -> bool:
         """Whether the drives have told that they came to rest where they should."""
-        return self._moved is None
+        return not self._moving
 
-    def watch(self, now: float) -> str:
+    def watch(self, now: float, tracking: bool) -> str:
         """Read what has come; return why the platform has to stop, or ''.
 
         Args:
             now: s of the loop's clock.
+            tracking: the platform follows the cue, and may move with the next command.
         """
         for status in self._feedback.statuses():
             self._take(status, now)
         while self._margins and now - self._margins[0][0] > _MARGIN_TIME:
             self._margins.popleft()
         kind, text = self._disagreement(now)
-        fault = text if self._moved is not None else ""
+        fault = text if tracking or not self.settled else ""
         if not kind:
             kind, text = self._unready()
         self.trouble = text
@@ -84,7 +86,10 @@ class DriveMonitor:
         """Note the command that the drives shall have at `due` (ns)."""
         self._commands.append((due, command))
         if moves(command):
-            self._moved, self._ever_moved = due, True
+            self._moving = self._ever_moved = True
+            self._at_rest = None
+        elif self._at_rest is None:
+            self._at_rest = due
 
     def figures(self) -> dict[str, float]:
         """Return what the drives told, by name, the unit in the name."""
@@ -112,8 +117,8 @@ class DriveMonitor:
             return
         self._compare(status)
         following = status.state == "following" and not self._off
-        if self._moved is not None and following and status.time > self._moved:
-            self._moved = None
+        if following and self._at_rest is not None and status.time >= self._at_rest:
+            self._moving = False
 
     def _compare(self, status: DriveStatus) -> None:
         """Hold the positions against the command of the same time, if there is one."""
