@@ -156,10 +156,13 @@ class LiveSession:
         options, platform = self._options, self._scenario.platform
         limits = platform.stage_limit_values()
         self._warm_up()
+        geometry = platform.geometry()
         platform_controller = PlatformController(
             lambda: build_pipeline(self._scenario, self._dt),
-            platform.geometry().sphere_from_wheels,
-            limits.travel,
+            geometry.wheels_from_sphere,
+            geometry.sphere_from_wheels,
+            platform.wheel_limit_values(),
+            limits,
             self._dt,
         )
         guard = Guard(self._dt, platform.wheel_limit_values(), limits)

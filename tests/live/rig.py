@@ -199,7 +199,12 @@ class Rig:
             Wanted(),
         )
         self.platform = PlatformController(
-            self.pipeline, limits.geometry().sphere_from_wheels, self.stage_limits.travel, dt
+            self.pipeline,
+            limits.geometry().wheels_from_sphere,
+            limits.geometry().sphere_from_wheels,
+            self.wheel_limits,
+            self.stage_limits,
+            dt,
         )
         self.guard = Guard(dt, self.wheel_limits, self.stage_limits)
         operator = OperatorInputs(

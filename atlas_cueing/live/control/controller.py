@@ -183,7 +183,7 @@ class LiveController:
             if not self._landing:
                 self._fail(self._guard.reason)
             vehicle = replace(self._vehicle, time=time)
-            tick = self._platform.guard_tick(
+            tick = self._platform.commanded_tick(
                 self._last_motion, self._last.wheel_angle, vehicle, command
             )
             self._waiting = None

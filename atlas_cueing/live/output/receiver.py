@@ -13,7 +13,7 @@ from typing import Protocol
 from ...errors import SetPointError
 from ...rotation import ZERO, Vec3
 from ...signals import StageLimits, WheelLimits
-from ..control.axis import AxisLimits
+from ..control.axis import six_axes
 from ..control.command import Command, axes_of, command_from
 from ..control.guard import breach_of
 from .bridge import Bridge
@@ -90,11 +90,7 @@ class SetPointReceiver:
         Raises InputError for a bad key.
         """
         check_key(key)
-        wheels, stage = wheel_limits, stage_limits
-        turns = zip("123", wheels.speed, wheels.acceleration, wheels.jerk, strict=True)
-        rails = zip("xyz", stage.speed, stage.acceleration, stage.jerk, stage.travel, strict=True)
-        self._limits = [AxisLimits(f"wheel {name} ", _NO_TICK, *limit) for name, *limit in turns]
-        self._limits += [AxisLimits(f"stage {name} ", _NO_TICK, *limit) for name, *limit in rails]
+        self._limits = six_axes(_NO_TICK, wheel_limits, stage_limits)
         self._key = key
         self.good = self.refused = 0
         self.reset(place)
