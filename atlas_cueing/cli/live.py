@@ -73,6 +73,21 @@ KeyFile: TypeAlias = Annotated[
         metavar="FILE",
     ),
 ]
+DriveStatus: TypeAlias = Annotated[
+    bool,
+    typer.Option(
+        "--no-drive-status",
+        help="The receiver of set points tells nothing: it is not asked, and not watched.",
+    ),
+]
+DriveTimeout: TypeAlias = Annotated[
+    float,
+    typer.Option(
+        "--drive-timeout",
+        help="Stop when the drives are silent for so long while they move. 30 to 1000.",
+        metavar="MS",
+    ),
+]
 Foxglove: TypeAlias = Annotated[
     int | None,
     typer.Option(
@@ -103,6 +118,8 @@ def live_command(
     setpoints: SetPoints = None,
     key: KeyFile = None,
     lead: Lead = 8.0,
+    no_drive_status: DriveStatus = False,
+    drive_timeout: DriveTimeout = 50.0,
     foxglove: Foxglove = None,
     priority: Priority = False,
     settings: Settings = None,
@@ -140,14 +157,15 @@ def live_command(
         priority=priority,
         announce=not as_json,
         lead=1e-3 * lead,
+        drive_timeout=1e-3 * drive_timeout,
     )
     session = LiveSession(loaded, log, options)
     with StopRequest(interrupt=False) as stop:
         with (
             followers(session, loaded, port if view else None, foxglove),
-            drives(setpoints, key) as sender,
+            drives(setpoints, key, loaded, listen=not no_drive_status) as (senders, feedback),
         ):
-            result = session.run(sender, lambda: stop.count)
+            result = session.run(senders, lambda: stop.count, feedback)
         typer.echo(one_json(result.to_json()) if as_json else run_summary(result))
     end(result)
 

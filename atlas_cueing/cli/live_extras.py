@@ -11,6 +11,7 @@ from .text import say
 
 if TYPE_CHECKING:
     from ..live import Drives, LiveSession
+    from ..live.control import DriveFeedback
     from ..scenario import Scenario
 
 _HIGHEST_PORT = 65535
@@ -53,21 +54,30 @@ def followers(
 
 
 @contextmanager
-def drives(setpoints: str | None, key_file: Path | None) -> Iterator[Sequence["Drives"]]:
+def drives(
+    setpoints: str | None, key_file: Path | None, scenario: "Scenario", *, listen: bool
+) -> Iterator[tuple[Sequence["Drives"], "DriveFeedback | None"]]:
     """Open the sender of set points to HOST:PORT, or none when `setpoints` is None.
+
+    Yield what takes the commands, and where the drives' words come from: None unless `listen`.
 
     Raises InputError for an address or a key that cannot be used.
     """
     if setpoints is None:
         if key_file is not None:
             raise InputError("--key is for --setpoints HOST:PORT, which is missing")
-        yield ()
+        if not listen:
+            raise InputError("--no-drive-status is for --setpoints HOST:PORT, which is missing")
+        yield (), None
         return
-    from ..live.output import SetPointSender
+    from ..live.output import SetPointSender, limits_hash
 
     host, port = _address(setpoints)
-    with closing(SetPointSender(host, port, key=_key(key_file) if key_file else b"")) as sender:
-        yield (sender,)
+    key = _key(key_file) if key_file else b""
+    platform = scenario.platform
+    limits = limits_hash(platform.wheel_limit_values(), platform.stage_limit_values())
+    with closing(SetPointSender(host, port, key, limits if listen else b"")) as sender:
+        yield (sender,), sender if listen else None
     if sender.unsent:
         say(f"{sender.unsent} set points could not be sent to {setpoints}")
 

@@ -65,11 +65,25 @@ def _timing_rows(live: "LiveFigures") -> list[tuple[str, str]]:
         f"{timing['missed_deadlines']:.0f}, at most {timing['most_missed_in_a_row']:.0f} in a row"
     )
     rows.append(("missed deadlines", missed))
+    rows += _drive_rows(live.drives)
     granted, refused = realtime["granted"], realtime["refused"]
     if granted or refused:
         denied = f"; refused: {'; '.join(refused)}" if refused else ""
         rows.append(("real time", f"{', '.join(granted) or 'nothing granted'}{denied}"))
     return rows
+
+
+def _drive_rows(told: Mapping[str, float | str]) -> list[tuple[str, str]]:
+    """The line on the drives; none when no set points were sent, or nothing was heard."""
+    if told.get("drive_status") == "one-way":
+        return [("drives", "one-way: they were not asked what they do")]
+    if not told.get("statuses"):
+        return []
+    wheels, stage = told["wheel_difference_deg"], told["stage_difference_mm"]
+    text = f"{told['statuses']} statuses, off by {wheels:.3f} deg of a wheel and {stage:.3f} mm"
+    if "least_margin_ms" in told:
+        text += f", set points at least {told['least_margin_ms']:.1f} ms early"
+    return [("drives", text)]
 
 
 def _head(result: "RunResult") -> list[tuple[str, str]]:

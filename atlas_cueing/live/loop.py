@@ -123,7 +123,7 @@ class Loop:
             lateness: from its deadline to its beginning, s.
         """
         begun, self.time = self._clock.now(), self.ticks * self._dt
-        slot = Slot(self._clock.now, self.time, 1e-9 * (due - self._dt_ns))
+        slot = Slot(self._clock.now, self.time, 1e-9 * (due - self._dt_ns), due)
         tick, command = self._controller.tick(slot)
         self._send(due, command)
         cost = self._clock.now() - begun

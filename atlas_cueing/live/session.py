@@ -1,7 +1,7 @@
 """A live run from a scenario to a finished log: everything put together, run, and taken apart."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import asdict, dataclass
 from math import degrees, radians
@@ -13,16 +13,26 @@ from ..run import Evaluation, LiveFigures, RunResult, build_pipeline, evaluate_l
 from ..scenario import Scenario
 from ..telemetry import LiveWriter, OperatorButtons, Ring, live_ring
 from .clock import MonotonicClock
-from .control import Guard, LiveController, OperatorInputs, PlatformController, RunOutcome
+from .control import (
+    DriveFeedback,
+    DriveMonitor,
+    Guard,
+    LiveController,
+    OperatorInputs,
+    PlatformController,
+    RunOutcome,
+)
+from .control.drive_monitor import TIMEOUT
 from .input import Source, no_vehicle
 from .loop import LEAD, Drives, Loop
 from .open_source import open_source
-from .output import Recorded, RecorderProcess
+from .output import Recorded, RecorderProcess, limits_hash
 from .realtime import RealtimeScheduling, collections, realtime_scheduling
 from .timing import LoopTiming
 
 RATES = (100.0, 1000.0)  # Hz, lowest and highest of the loop
 DEFAULT_RATE = 500.0  # Hz
+DRIVE_TIMEOUTS = (0.03, 1.0)  # s, shortest and longest silence of the drives
 LEADS = (0.002, 0.08)  # s, shortest and longest of the set points
 # rad and m that what was sent may be behind what was commanded
 _MOST_BEHIND = (radians(0.1), 1e-3)
@@ -44,6 +54,7 @@ class LiveOptions:
     engage: engage at the start.
     priority: ask the system for SCHED_FIFO, locked memory and a core of its own.
     announce: report changes of state on stderr.
+    drive_timeout: s that the drives may be silent while the platform moves, if they speak.
     """
 
     rate: float = DEFAULT_RATE
@@ -53,6 +64,7 @@ class LiveOptions:
     priority: bool = False
     announce: bool = False
     lead: float = LEAD
+    drive_timeout: float = TIMEOUT
 
 
 class LiveSession:
@@ -79,6 +91,12 @@ class LiveSession:
             raise InputError(
                 f"--lead {1e3 * options.lead:g} ms, allowed: {shortest:g} <= lead <= {longest:g}"
             )
+        if not DRIVE_TIMEOUTS[0] <= options.drive_timeout <= DRIVE_TIMEOUTS[1]:
+            shortest, longest = (1e3 * timeout for timeout in DRIVE_TIMEOUTS)
+            raise InputError(
+                f"--drive-timeout {1e3 * options.drive_timeout:g} ms, allowed: {shortest:g} <="
+                f" timeout <= {longest:g}"
+            )
         self._scenario = scenario
         self._log = Path(log)
         self._options = options
@@ -92,17 +110,25 @@ class LiveSession:
         self._origin, self.started_ns = self._clock.now(), time.time_ns()
 
     def run(
-        self, drives: Sequence[Drives] = (), stop_requests: Callable[[], int] = int
+        self,
+        drives: Sequence[Drives] = (),
+        stop_requests: Callable[[], int] = int,
+        feedback: DriveFeedback | None = None,
     ) -> RunResult:
         """Fly until the run is over, and finish the log.
 
         Args:
             drives: take every command.
             stop_requests: returns how often the process has been asked to end.
+            feedback: where the drives' words come from; None when they do not speak.
         """
+        spoken = "monitored" if feedback else "one-way" if drives else "none"
         with closing(self._source):
-            recorder = RecorderProcess(self.ring, self._recorder(), announce=self._options.announce)
-            controller = self._controller(stop_requests)
+            recorder = RecorderProcess(
+                self.ring, self._recorder(spoken), announce=self._options.announce
+            )
+            monitor = self._monitor(feedback)
+            controller = self._controller(stop_requests, monitor)
             writer = LiveWriter(self.ring)
             loop = Loop(
                 *(self._dt, self._clock, controller, [writer], drives, self._origin),
@@ -114,23 +140,36 @@ class LiveSession:
                 outcome = controller.outcome
                 writer.end(loop.time, outcome.result, outcome.reason)
                 recorded = recorder.finish()
-        return self._result(outcome, recorded, loop, realtime)
+        told: dict[str, float | str] = {"drive_status": spoken}
+        told |= monitor.figures() if monitor else {}
+        finding = monitor.finding if monitor else ""
+        return self._result(outcome, recorded, loop, realtime, told, finding)
 
-    def _controller(self, stop_requests: Callable[[], int]) -> LiveController:
+    def _monitor(self, feedback: DriveFeedback | None) -> DriveMonitor | None:
+        platform = self._scenario.platform
+        limits = limits_hash(platform.wheel_limit_values(), platform.stage_limit_values())
+        return DriveMonitor(feedback, limits, self._options.drive_timeout) if feedback else None
+
+    def _controller(
+        self, stop_requests: Callable[[], int], monitor: DriveMonitor | None
+    ) -> LiveController:
         options, platform = self._options, self._scenario.platform
         limits = platform.stage_limit_values()
         self._warm_up()
+        geometry = platform.geometry()
         platform_controller = PlatformController(
             lambda: build_pipeline(self._scenario, self._dt),
-            platform.geometry().sphere_from_wheels,
-            limits.travel,
+            geometry.wheels_from_sphere,
+            geometry.sphere_from_wheels,
+            platform.wheel_limit_values(),
+            limits,
             self._dt,
         )
         guard = Guard(self._dt, platform.wheel_limit_values(), limits)
         operator = OperatorInputs(
             self.buttons.edges, stop_requests, options.duration, options.attended
         )
-        controller = LiveController(platform_controller, guard, self._source, operator)
+        controller = LiveController(platform_controller, guard, self._source, operator, monitor)
         if options.engage:
             controller.engage()
         return controller
@@ -149,15 +188,22 @@ class LiveSession:
         return realtime
 
     def _result(
-        self, outcome: RunOutcome, recorded: Recorded, loop: Loop, realtime: RealtimeScheduling
+        self,
+        outcome: RunOutcome,
+        recorded: Recorded,
+        loop: Loop,
+        realtime: RealtimeScheduling,
+        told: Mapping[str, float | str],
+        finding: str,
     ) -> RunResult:
         unrecorded = outcome.result == "ok" and recorded.result in _UNRECORDED
         ended = recorded if unrecorded else outcome
         result, reason = ended.result, ended.reason
         if result == "ok":
-            result, reason = _unsent(loop.timing)
+            result, reason = ("setpoints_unsent", finding) if finding else _unsent(loop.timing)
         figures = LiveFigures(
-            outcome.faults, outcome.dropped, recorded.lost, loop.timing.to_json(), asdict(realtime)
+            *(outcome.faults, outcome.dropped, recorded.lost, loop.timing.to_json()),
+            *(asdict(realtime), told),
         )
         return RunResult(
             result,
@@ -169,11 +215,15 @@ class LiveSession:
             live=figures,
         )
 
-    def _recorder(self) -> McapRecorder:
+    def _recorder(self, spoken: str) -> McapRecorder:
         rate = f"{self._options.rate:g}"
         started = self.started_ns
         return open_recorder(
-            self._scenario, self._log, started_ns=started, live="true", rate_hz=rate
+            *(self._scenario, self._log),
+            started_ns=started,
+            live="true",
+            rate_hz=rate,
+            drive_status=spoken,
         )
 
     def _evaluation(self, ticks: int) -> Evaluation:

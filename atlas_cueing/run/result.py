@@ -15,6 +15,7 @@ class LiveFigures:
     lost: messages that the recorder could not keep.
     timing: punctuality of the loop by name, the unit in the name.
     realtime: `granted` and `refused`, what the operating system was asked for.
+    drives: `drive_status` (none, one-way or monitored) and what the drives told, by name.
     """
 
     faults: int
@@ -22,6 +23,7 @@ class LiveFigures:
     lost: int
     timing: Mapping[str, float]
     realtime: Mapping[str, list[str]]
+    drives: Mapping[str, float | str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,4 +76,5 @@ def _live_json(live: LiveFigures) -> dict[str, object]:
         "messages_not_recorded": live.lost,
         "timing": dict(live.timing),
         "realtime": dict(live.realtime),
+        "drives": dict(live.drives),
     }

@@ -46,7 +46,7 @@ class Smoothing:
     def step(self, cue: Cue) -> Motion:
         """Give the motion at the cue's time, one tick after the last one."""
         if self._start is None:
-            return self._begin(cue)
+            return self.begin(cue)
         self._ticks += 1
         sphere_met, stage_met = self._turn(cue), self._stage.step(cue)
         return self._motion(self._start + self._ticks * self._dt, sphere_met, stage_met)
@@ -58,10 +58,14 @@ class Smoothing:
         """
         return self._sphere.wheel_motion
 
-    def _begin(self, cue: Cue) -> Motion:
+    def begin(self, cue: Cue) -> Motion:
+        """Give the motion at rest in the cue's orientation and position; from there it goes on.
+
+        Raises PlanningError for a cue that is no orientation.
+        """
         if not _is_orientation(cue):
             raise PlanningError(f"the first cue must be an orientation; got {cue}")
-        self._start = cue.time
+        self._start, self._ticks = cue.time, 0
         self._sphere.start(cue)
         self._stage.start(cue)
         return self._motion(cue.time, True, True)

@@ -72,6 +72,8 @@ class SphereSmoothing:
 
     def start(self, cue: Cue) -> None:
         """Begin at rest in the cue's orientation."""
+        self._speed, self._acceleration, self._left = ZERO, ZERO, IDENTITY
+        self.w_WS_W, self.alpha_WS_W, self._angle = ZERO, ZERO, ZERO
         self.q_WS, self._cue_speed = (
             normalise(cue.q_WS),
             apply(self._wheels_from_sphere, cue.w_WS_W),

@@ -55,6 +55,7 @@ class RailAxis:
     def start(self, p: float) -> None:
         """Begin at rest in p (m), or where the travel ends."""
         self.p = min(max(p, -self.travel), self.travel) if isfinite(p) else 0.0
+        self.v = self.a = 0.0
 
     def step(self, p: float, v: float, a: float) -> bool:
         """Follow a cue for one tick; return whether it was given. Any input is safe."""

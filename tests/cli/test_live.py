@@ -134,7 +134,13 @@ def test_a_second_signal_stops_and_the_log_is_whole(folder: Path) -> None:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as drives:
         drives.bind(("127.0.0.1", 0))
         drives.setblocking(False)
-        process = started(folder, "--json", "--setpoints", f"127.0.0.1:{drives.getsockname()[1]}")
+        process = started(
+            folder,
+            "--json",
+            "--setpoints",
+            f"127.0.0.1:{drives.getsockname()[1]}",
+            "--no-drive-status",
+        )
         for state in ("running", "parking"):
             until(
                 lambda awaited=state: process.poll() is not None or awaited in states(drives), 60.0

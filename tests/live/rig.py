@@ -12,12 +12,15 @@ from numpy.typing import NDArray
 
 from atlas_cueing.live.control.command import Command
 from atlas_cueing.live.control.controller import LiveController, OperatorInputs
+from atlas_cueing.live.control.drive_monitor import DriveMonitor
+from atlas_cueing.live.control.drive_status import DriveFeedback
 from atlas_cueing.live.control.guard import Guard
 from atlas_cueing.live.control.platform_controller import PlatformController
 from atlas_cueing.live.control.slot import Slot
 from atlas_cueing.live.control.state_machine import State
 from atlas_cueing.live.input.source import SourceReading
 from atlas_cueing.live.loop import LEAD, Drives, Loop
+from atlas_cueing.live.output.hello import limits_hash
 from atlas_cueing.pipeline import Pipeline
 from atlas_cueing.rotation import (
     IDENTITY,
@@ -181,6 +184,7 @@ class Rig:
         rate: float = 0.6,
         lead: float = LEAD,
         drives: Sequence[Drives] = (),
+        feedback: DriveFeedback | None = None,
     ) -> None:
         self.dt, self.scenario = dt, scenario(platform, *settings)
         limits = self.scenario.platform
@@ -195,13 +199,22 @@ class Rig:
             Wanted(),
         )
         self.platform = PlatformController(
-            self.pipeline, limits.geometry().sphere_from_wheels, self.stage_limits.travel, dt
+            self.pipeline,
+            limits.geometry().wheels_from_sphere,
+            limits.geometry().sphere_from_wheels,
+            self.wheel_limits,
+            self.stage_limits,
+            dt,
         )
         self.guard = Guard(dt, self.wheel_limits, self.stage_limits)
         operator = OperatorInputs(
             self.wanted.edges, lambda: self.wanted.signals, duration, attended
         )
-        self.controller = LiveController(self.platform, self.guard, self.source, operator)
+        limits_told = limits_hash(self.wheel_limits, self.stage_limits)
+        self.monitor = DriveMonitor(feedback, limits_told) if feedback else None
+        self.controller = LiveController(
+            self.platform, self.guard, self.source, operator, self.monitor
+        )
         outputs, sinks = [self.tape], [self.tape, *drives]
         self.loop = Loop(dt, self.clock, self.controller, outputs, sinks, lead=lead)
         self.start = self.clock.now() + dt

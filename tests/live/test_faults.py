@@ -33,7 +33,8 @@ def test_every_fault_in_every_state(state: State) -> None:
 
 
 def home(rig: Rig) -> None:
-    """By the operator's hand from any state to rest at home."""
+    """By the operator's hand from any state to rest at home; slowly after a fault."""
+    longest = 2.0 * LONGEST_END if rig.state in FAULTS else LONGEST_END
     if rig.state in FAULTS:
         rig.until(State.STOPPED, LONGEST_END)
         at_rest(rig)
@@ -42,7 +43,7 @@ def home(rig: Rig) -> None:
     elif rig.state is not State.PARKED:
         rig.press("park")
     rig.tick()
-    rig.until(State.PARKED, LONGEST_END)
+    rig.until(State.PARKED, longest)
     at_rest(rig)
     assert geodesic(rig.motion.q_WS, IDENTITY) < AT_PARK + ROUNDING
 

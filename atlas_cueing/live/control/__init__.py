@@ -2,6 +2,8 @@
 
 from .command import Command, command_of, standstill
 from .controller import LiveController, OperatorInputs, RunOutcome
+from .drive_monitor import DriveMonitor
+from .drive_status import DriveFeedback, DriveStatus
 from .guard import Guard
 from .input_monitor import InputMonitor
 from .platform_controller import PlatformController
@@ -9,6 +11,9 @@ from .state_machine import Event, State, allowed_buttons, next_state
 
 __all__ = [
     "Command",
+    "DriveFeedback",
+    "DriveMonitor",
+    "DriveStatus",
     "Event",
     "Guard",
     "InputMonitor",

@@ -10,6 +10,7 @@ from math import copysign, inf, isinf, sqrt, ulp
 
 from ...errors import InputError
 from ...rotation import Vec3
+from ...signals import StageLimits, WheelLimits
 
 # share by which a limit may be passed, as differences of rounded numbers do; the stop has it, too
 ROUNDING = 5e-7
@@ -110,6 +111,19 @@ class AxisLimits:
         return self.reach * (h * h * h / 12.0 - d * d * d / 48.0) - m * m / (self.reach * d)
 
 
+def six_axes(dt: float, wheels: WheelLimits, stage: StageLimits) -> list[AxisLimits]:
+    """Return the limits of wheels 1 to 3 and of the stage's x, y, z, for ticks of dt (s).
+
+    Raises InputError for limits that are not positive.
+    """
+    turns = zip("123", wheels.speed, wheels.acceleration, wheels.jerk, strict=True)
+    rails = zip("xyz", stage.speed, stage.acceleration, stage.jerk, stage.travel, strict=True)
+    return [
+        *(AxisLimits(f"wheel {name} ", dt, *limit) for name, *limit in turns),
+        *(AxisLimits(f"stage {name} ", dt, *limit) for name, *limit in rails),
+    ]
+
+
 class CertifiedStop:
     """The shortest jerk-limited way from (p, v, a) to rest at `end`.
 
@@ -132,6 +146,11 @@ class CertifiedStop:
         begin = p + (self._jerk * self._since * self._since / 6.0 - sign * top) * self._since
         self.end = begin + sign * top * (self._ramp + 0.5 * self._hold)
         self.turning_point = begin + sign * top * turn / 1.5 if self._since < turn else p
+
+    @property
+    def duration(self) -> float:
+        """Time until it stands, s."""
+        return max(2.0 * self._ramp + self._hold - self._since, 0.0)
 
     def at(self, t: float) -> Vec3:
         """Return position, speed and acceleration t >= 0 s after its start.

@@ -18,6 +18,7 @@ from ...errors import VehicleError
 from ...signals import Tick
 from ..input.source import Source, SourceReading, no_vehicle
 from .command import Command, command_of, standstill
+from .drive_monitor import DriveMonitor
 from .guard import Guard
 from .input_monitor import GOOD_TO_ENGAGE, InputMonitor
 from .platform_controller import PlatformController
@@ -74,13 +75,19 @@ class LiveController:
     """
 
     def __init__(
-        self, platform: PlatformController, guard: Guard, source: Source, operator: OperatorInputs
+        self,
+        platform: PlatformController,
+        guard: Guard,
+        source: Source,
+        operator: OperatorInputs,
+        drives: DriveMonitor | None = None,
     ) -> None:
-        """Start parked, before the first reading of the source."""
+        """Start before the first reading of the source; without `drives` nobody is listened to."""
         self._platform = platform
         self._guard = guard
         self._source = source
         self._operator = operator
+        self._drives = drives
         self._monitor = InputMonitor()
         self._finishing = self._landing = False
         # the last motion and command that went out
@@ -100,8 +107,10 @@ class LiveController:
 
     @property
     def over(self) -> bool:
-        """Whether the run is finished and the platform at rest for good."""
-        return self.state in _REST_STATES and self._finishing and self._guard.standing
+        """Whether the run is finished and the platform at rest for good, the drives as well."""
+        if not (self.state in _REST_STATES and self._finishing and self._guard.standing):
+            return False
+        return self.state is State.STOPPED or self._drives is None or self._drives.settled
 
     @property
     def outcome(self) -> RunOutcome:
@@ -122,12 +131,24 @@ class LiveController:
         """Run the next tick; return what is recorded and what the drives get."""
         tick = None
         try:
+            self._watch_drives(slot)
             if not self._landing:
                 tick = self._make_tick(slot)
         except Exception as error:  # noqa: BLE001
             # After any error the platform must come to a stop
             self._fail(f"{type(error).__name__}: {error}")
-        return self._guarded(slot.time, tick)
+        tick, command = self._guarded(slot.time, tick)
+        if self._drives:
+            self._drives.commanded(slot.due, command)
+        return tick, command
+
+    def _watch_drives(self, slot: Slot) -> None:
+        """Hear the drives; what they tell may be a fault."""
+        if self._drives is None:
+            return
+        if fault := self._drives.watch(slot.now(), self._platform.tracking):
+            self._fail(fault)
+        self._changes += [(self.state, note) for note in self._drives.notes()]
 
     def _make_tick(self, slot: Slot) -> Tick | None:
         """Handle the events of the slot and make its tick; None for one of the guard's stop."""
@@ -162,7 +183,7 @@ class LiveController:
             if not self._landing:
                 self._fail(self._guard.reason)
             vehicle = replace(self._vehicle, time=time)
-            tick = self._platform.guard_tick(
+            tick = self._platform.commanded_tick(
                 self._last_motion, self._last.wheel_angle, vehicle, command
             )
             self._waiting = None
@@ -207,7 +228,9 @@ class LiveController:
     def _handle_operator(self, time: float) -> None:
         """Handle buttons, requests to end, and the end of the duration."""
         for name in self._operator.buttons():
-            if name in BUTTON_EVENTS:
+            if name == "reset" and self._drives and self._drives.trouble:
+                self._changes.append((self.state, f"not reset: {self._drives.trouble}"))
+            elif name in BUTTON_EVENTS:
                 self._handle(BUTTON_EVENTS[name], f"asked to {name}")
         stop_requests = self._operator.stop_requests()
         if stop_requests > 1 and self.state not in _FAULT_STATES:
@@ -230,6 +253,7 @@ class LiveController:
     def _start_engaging(self, time: float) -> None:
         """Start to blend to the cue, once the input has been good for long enough."""
         waiting = self.state is State.ENGAGING and not self._platform.tracking
+        waiting &= not (self._drives and self._drives.trouble)
         wanted = GOOD_TO_ENGAGE if self._platform.needs_cueing else 0.0
         if waiting and self.reading.vehicle and self._monitor.good_for(time) >= wanted:
             self._platform.start_engaging(self._vehicle)
@@ -238,7 +262,7 @@ class LiveController:
         """Raise a fault, unless there is one already."""
         if self.state in _FAULT_STATES:
             return
-        self._faults += 1
+        self._faults, self._landing = self._faults + 1, False
         self._failures.append(("fault", reason))
         self._handle(Event.FAULT, reason)
 

@@ -11,6 +11,7 @@ from ...pipeline import Pipeline
 from ...rotation import (
     IDENTITY,
     ZERO,
+    Mat3,
     Quat,
     Vec3,
     add,
@@ -21,9 +22,12 @@ from ...rotation import (
     normalise,
     subtract,
 )
-from ...signals import Cue, Motion, Tick, VehicleState, WheelSpeeds
-from .command import Command
+from ...signals import Cue, Motion, StageLimits, Tick, VehicleState, WheelLimits, WheelSpeeds
+from .axis import six_axes
+from .command import Command, command_from
+from .gentle_stop import GentleStop
 from .input_monitor import ENGAGE_TIME, RESUME_TIME
+from .pace import Pace
 from .sign_continuity import SignContinuity
 from .state_machine import Event, State, next_state
 from .trajectories import (
@@ -31,9 +35,9 @@ from .trajectories import (
     FollowTrajectory,
     HoldTrajectory,
     ParkTrajectory,
-    StopTrajectory,
     Trajectory,
     calm_time,
+    turn_home,
 )
 
 # rad/s, m/s, and a tenth of it per s^2: below this the platform is at rest (assumed: imperceptible)
@@ -54,21 +58,27 @@ class PlatformController:
     def __init__(
         self,
         new_pipeline: Callable[[], Pipeline],
-        sphere_from_wheels: tuple[Vec3, Vec3, Vec3],
-        travel: Vec3,
+        wheels_from_sphere: Mat3,
+        sphere_from_wheels: Mat3,
+        wheel_limits: WheelLimits,
+        stage_limits: StageLimits,
         dt: float,
     ):
         """Build the first pipeline.
 
         Args:
             new_pipeline: makes a new pipeline, at rest.
-            sphere_from_wheels: J, rad/s of the sphere in W by rad/s of each wheel.
-            travel: of the stage to either side of its centre, by axis of W, m.
+            wheels_from_sphere: J^-1, rad/s of each wheel by rad/s of the sphere in W.
+            sphere_from_wheels: J, the reverse.
+            wheel_limits: of the wheels.
+            stage_limits: of the stage.
             dt: tick, s.
         """
         self._new_pipeline = new_pipeline
         self._J = sphere_from_wheels
-        self._travel = travel
+        self._axes = six_axes(dt, wheel_limits, stage_limits)
+        self._pace = Pace(wheels_from_sphere, self._axes)
+        self._slowly = False  # on the way home
         self._dt = dt
         self.state = State.PARKED
         self._pipeline = new_pipeline()
@@ -78,8 +88,9 @@ class PlatformController:
         self._motion = self._pipeline.smoothing.step(_PARK_CUE)
         # rad, of the wheels: where this smoothing has begun, and with the last motion
         self._first_angle, self.wheel_angle = ZERO, ZERO
+        self._wheels = WheelSpeeds(0.0, ZERO, ZERO)  # with the last motion
         self._signs = SignContinuity(self._motion.q_WS)
-        self._trajectory: Trajectory = HoldTrajectory(self._motion)
+        self._trajectory: Trajectory | GentleStop = HoldTrajectory(self._motion)
 
     @property
     def tracking(self) -> bool:
@@ -128,6 +139,7 @@ class PlatformController:
     def start_engaging(self, vehicle: VehicleState) -> None:
         """Start to blend to the cue for this state of the vehicle, from rest."""
         vehicle = self._signs.vehicle(vehicle)
+        self._leave_stop()
         blend_time = RESUME_TIME
         if self._cueing is None:
             blend_time = ENGAGE_TIME
@@ -140,15 +152,21 @@ class PlatformController:
 
     def start_next_trajectory(self) -> None:
         """Start the way back to park as soon as a stop for parking has come to rest."""
-        stopping = isinstance(self._trajectory, StopTrajectory)
+        stopping = isinstance(self._trajectory, GentleStop)
         if self.state is State.PARKING and stopping and self._trajectory_completed:
-            self._trajectory = ParkTrajectory(self._motion, self._dt)
+            self._leave_stop()
+            q, p = self._motion.q_WS, self._motion.p_WS_W
+            duration = self._pace.parking_time(turn_home(q), p, self._slowly)
+            self._trajectory = ParkTrajectory(self._motion, self._dt, duration)
 
     def step(self, vehicle: VehicleState) -> Tick:
         """Return the next tick, in any state but those of a fault.
 
         Raises PlanningError for a cue that is not finite.
         """
+        if isinstance(self._trajectory, GentleStop):
+            command = command_from(vehicle.time, self._trajectory.next())
+            return self.commanded_tick(self._motion, self.wheel_angle, vehicle, command, 0.0)
         vehicle = self._signs.vehicle(vehicle)
         if self.tracking and self._cueing:
             self._cue = self._cueing.step(vehicle)
@@ -159,7 +177,8 @@ class PlatformController:
         self._motion = _motion_at(smoothing.step(cue), vehicle.time)
         angle, speed, acceleration = smoothing.wheel_motion()
         self.wheel_angle = add(self._first_angle, angle)
-        return Tick(vehicle, cue, self._motion, WheelSpeeds(vehicle.time, speed, acceleration))
+        self._wheels = WheelSpeeds(vehicle.time, speed, acceleration)
+        return Tick(vehicle, cue, self._motion, self._wheels)
 
     def standing_tick(self, before: Motion, vehicle: VehicleState) -> Tick:
         """Return a tick that stands still at the motion before it, which is at rest."""
@@ -168,10 +187,15 @@ class PlatformController:
         wheels = WheelSpeeds(time, ZERO, ZERO)
         return Tick(self._signs.vehicle(vehicle), cue, _motion_at(before, time), wheels)
 
-    def guard_tick(
-        self, before: Motion, angle_before: Vec3, vehicle: VehicleState, command: Command
+    def commanded_tick(
+        self,
+        before: Motion,
+        angle_before: Vec3,
+        vehicle: VehicleState,
+        command: Command,
+        limited: float = 1.0,
     ) -> Tick:
-        """Return the tick of a command that the guard made: the motion it gives the platform.
+        """Return the tick of a command that no smoothing has made: the motion of the platform.
 
         The turn of the sphere is J times the wheels' own.
 
@@ -179,17 +203,18 @@ class PlatformController:
             before: motion of the platform a tick ago.
             angle_before: of the wheels, a tick ago, rad.
             vehicle: state of the vehicle, with the time of this tick.
-            command: of the guard's stop.
+            command: of a stop.
+            limited: whether the motion is another than was asked for, 1 or 0.
         """
         w, alpha = apply(self._J, command.wheel_speed), apply(self._J, command.wheel_acceleration)
         turn = apply(self._J, subtract(command.wheel_angle, angle_before))
         q: Quat = normalise(integrate_base(before.q_WS, turn, before.w_WS_W, w, self._dt))
         p, v, a = command.p_WS_W, command.v_WS_W, command.a_WS_W
         self.wheel_angle = command.wheel_angle
-        self._motion = Motion(vehicle.time, q, w, alpha, p, v, a, (1.0, 1.0))
-        wheels = WheelSpeeds(vehicle.time, command.wheel_speed, command.wheel_acceleration)
+        self._motion = Motion(vehicle.time, q, w, alpha, p, v, a, (limited, limited))
+        self._wheels = WheelSpeeds(vehicle.time, command.wheel_speed, command.wheel_acceleration)
         cue = self._signs.cue(Cue(vehicle.time, q, w, p, v, a))
-        return Tick(self._signs.vehicle(vehicle), cue, self._motion, wheels)
+        return Tick(self._signs.vehicle(vehicle), cue, self._motion, self._wheels)
 
     @property
     def _trajectory_completed(self) -> bool:
@@ -203,11 +228,29 @@ class PlatformController:
             case State.HOLDING | State.PARKING:
                 if before is State.STOPPED:
                     self._restart()
-                self._trajectory = StopTrajectory(self._motion, self._dt, self._travel)
+                self._slowly = before is State.STOPPED
+                if not isinstance(self._trajectory, GentleStop):
+                    self._trajectory = self._new_stop()
             case State.PARKED:
                 self._cueing, self._trajectory = None, HoldTrajectory(self._motion)
             case State.ENGAGING:
+                self._leave_stop()
                 self._trajectory = HoldTrajectory(self._motion)
+
+    def _new_stop(self) -> GentleStop:
+        """Return a stop from the last motion."""
+        m, wheels = self._motion, self._wheels
+        turns = zip(self.wheel_angle, wheels.speed, wheels.acceleration, strict=True)
+        rails = zip(m.p_WS_W, m.v_WS_W, m.a_WS_W, strict=True)
+        return GentleStop(self._axes, [*turns, *rails], self._dt)
+
+    def _leave_stop(self) -> None:
+        """Have smoothing begin where a stop has ended, which it did not make."""
+        if isinstance(self._trajectory, GentleStop):
+            m = self._motion
+            self._first_angle = self.wheel_angle
+            self._pipeline.smoothing.begin(Cue(m.time, m.q_WS, ZERO, m.p_WS_W, ZERO, ZERO))
+            self._trajectory = HoldTrajectory(m)
 
     def _take_cueing(self) -> CueSource:
         """Return the cueing that no engagement has used yet, or a new one."""

@@ -13,23 +13,26 @@ class Slot:
     Whoever follows set points needs this slot's when the one before it is due. So the slot is lost
     as soon as less than RESERVE is left until then.
 
+    now: returns the time of the loop's clock, s.
     time: of the platform, s.
+    due: when the drives shall have this slot's set point, ns of the clock.
     """
 
-    def __init__(self, now: Callable[[], float], time: float, needed: float) -> None:
+    def __init__(self, now: Callable[[], float], time: float, needed: float, due: int = 0) -> None:
         """Set up.
 
         Args:
             now: returns the time of the loop's clock, s.
             time: of the platform, s.
             needed: when the set point has to be with the drives, s of the clock.
+            due: when the drives shall have it, ns of the clock.
         """
-        self._now, self._latest = now, needed - RESERVE
-        self.time = time
+        self.now, self._latest = now, needed - RESERVE
+        self.time, self.due = time, due
 
     def late(self) -> float:
         """Return by how much it is too late now for the set point of this slot, s.
 
         A number above zero means that the slot is lost.
         """
-        return self._now() - self._latest
+        return self.now() - self._latest

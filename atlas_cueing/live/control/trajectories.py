@@ -1,13 +1,14 @@
-"""Trajectories of the platform: follow the cue, hold, stop, park, and engage.
+"""Trajectories of the platform: follow the cue, stay, park, and engage.
 
 Each trajectory starts smoothly from a given motion and makes one Cue a tick. Smoothing, wheels and
-guard come after it as after any cue, so that a trajectory need not keep the limits exactly. All
-positions and orientations are in W.
+guard come after it as after any cue, so that a trajectory need not keep the limits exactly. The
+stop of a hold is none of them (`gentle_stop`): smoothing would follow it with a lag, and a lag is
+an overshoot. All positions and orientations are in W.
 """
 
 # mypyc: runs every tick
 
-from math import inf, pi, radians, sqrt
+from math import pi, radians, sqrt
 from typing import Protocol
 
 from ...rotation import (
@@ -30,14 +31,13 @@ from ...rotation import (
 )
 from ...signals import Cue, Motion
 
-STOP_TIME = 0.8  # s; from full speed to rest (assumed; the wheels' limits would allow half of it)
 CALM_RATE = radians(60.0)  # rad/s at most on the way to park, or to the cue (assumed)
 CALM_SPEED = 0.5  # m/s at most on the same ways (assumed)
 CALM_ACCELERATION = 0.8  # m/s^2 at most on the same ways (assumed)
 SHORTEST_PARKING = 1.0  # s
 # rad; a turn that has grown beyond it on the way to the cue is made the other way round (assumed)
 _OTHER_WAY = 1.5 * pi
-_PEAK_RATE, _PEAK_BEND = 1.875, 10.0 / sqrt(3.0)  # of `smoothstep`, per duration and per duration^2
+PEAK_RATE, PEAK_BEND = 1.875, 10.0 / sqrt(3.0)  # of `smoothstep`, per duration and per duration^2
 
 
 class Trajectory(Protocol):
@@ -74,54 +74,20 @@ class HoldTrajectory:
         return Cue(cue.time, self._q, ZERO, self._p, ZERO, ZERO)
 
 
-class StopTrajectory:
-    """Comes to rest: rates fade out by 1 - smoothstep, faster where the travel is about to end."""
-
-    def __init__(self, motion: Motion, dt: float, travel: Vec3) -> None:
-        """Start from `motion`; tick dt in s, travel of the stage to either side in m."""
-        self._dt, self._elapsed = dt, 0.0
-        self._q, self._w = motion.q_WS, motion.w_WS_W
-        self._p, self._v = motion.p_WS_W, motion.v_WS_W
-        each = zip(motion.p_WS_W, motion.v_WS_W, travel, strict=True)
-        self._time = STOP_TIME
-        self._rails = tuple(min(STOP_TIME, _time_left(p, v, limit)) for p, v, limit in each)
-
-    def step(self, cue: Cue) -> Cue:
-        """Return the next cue on the way to rest."""
-        self._elapsed += self._dt
-        turned, rate, _ = _fading(self._elapsed, self._time)
-        x, y, z = (_fading(self._elapsed, time) for time in self._rails)
-        (px, py, pz), (vx, vy, vz) = self._p, self._v
-        return Cue(
-            cue.time,
-            normalise(multiply(exp(scale(turned, self._w)), self._q)),
-            scale(rate, self._w),
-            (px + x[0] * vx, py + y[0] * vy, pz + z[0] * vz),
-            (x[1] * vx, y[1] * vy, z[1] * vz),
-            (x[2] * vx, y[2] * vy, z[2] * vz),
-        )
-
-    @property
-    def arrived(self) -> bool:
-        """Whether it is at rest."""
-        return self._elapsed >= self._time
-
-
 class ParkTrajectory:
     """Moves from rest to upright in the centre, the shorter way round, in one smooth move."""
 
-    def __init__(self, motion: Motion, dt: float) -> None:
-        """Start where `motion` rests; tick dt in s."""
-        self._dt, self._elapsed = dt, 0.0
+    def __init__(self, motion: Motion, dt: float, duration: float) -> None:
+        """Start where `motion` rests; tick and duration in s."""
+        self._dt, self._elapsed, self._duration = dt, 0.0, duration
         self._q, self._p = motion.q_WS, motion.p_WS_W
-        self._turn = log(conjugate(motion.q_WS))
-        self.duration = max(SHORTEST_PARKING, calm_time(norm(self._turn), norm(self._p)))
+        self._turn = turn_home(motion.q_WS)
 
     def step(self, cue: Cue) -> Cue:
         """Return the next cue on the way to park."""
         self._elapsed += self._dt
-        s, ds, dds = smoothstep(self._elapsed / self.duration)
-        rate, bend = ds / self.duration, dds / self.duration**2
+        s, ds, dds = smoothstep(self._elapsed / self._duration)
+        rate, bend = ds / self._duration, dds / self._duration**2
         q = normalise(multiply(exp(scale(s, self._turn)), self._q))
         back = scale(-1.0, self._p)
         return Cue(
@@ -136,7 +102,7 @@ class ParkTrajectory:
     @property
     def arrived(self) -> bool:
         """Whether it is upright in the centre."""
-        return self._elapsed >= self.duration
+        return self._elapsed >= self._duration
 
 
 class EngageTrajectory:
@@ -194,10 +160,15 @@ class EngageTrajectory:
         return log_unwound(self._left)
 
 
+def turn_home(q_WS: Quat) -> Vec3:
+    """Return the shorter turn (rotation vector, rad, W) from an orientation to upright."""
+    return log(conjugate(q_WS))
+
+
 def calm_time(angle: float, distance: float) -> float:
     """Return the duration (s) of a calm move from rest to rest by `angle` (rad), `distance` (m)."""
-    by_rate = _PEAK_RATE * max(angle / CALM_RATE, distance / CALM_SPEED)
-    return max(by_rate, sqrt(_PEAK_BEND * distance / CALM_ACCELERATION))
+    by_rate = PEAK_RATE * max(angle / CALM_RATE, distance / CALM_SPEED)
+    return max(by_rate, sqrt(PEAK_BEND * distance / CALM_ACCELERATION))
 
 
 def smoothstep(t: float) -> Vec3:
@@ -215,22 +186,3 @@ def smoothstep(t: float) -> Vec3:
         30.0 * t * t * (1.0 - t) * (1.0 - t),
         60.0 * t * (1.0 - t) * (1.0 - 2.0 * t),
     )
-
-
-def _fading(t: float, duration: float) -> Vec3:
-    """Return integral, value and derivative of 1 - smoothstep(t / duration).
-
-    The integral goes from 0 to duration / 2.
-    """
-    u = min(t / duration, 1.0)
-    s, ds, _ = smoothstep(u)
-    return duration * u * (1.0 - u * u * u * (2.5 - u * (3.0 - u))), 1.0 - s, -ds / duration
-
-
-def _time_left(p: float, v: float, travel: float) -> float:
-    """Return the duration (s) of a stop that uses up what is left of the travel.
-
-    A stop from speed v needs v times half its duration.
-    """
-    room = travel - p if v > 0.0 else travel + p
-    return max(2.0 * room / abs(v), 1e-3) if v else inf

@@ -1,13 +1,16 @@
 """What leaves a live run: set points for the drives, the log, and messages for Foxglove.
 
-`SetPointReceiver` is the drives' side of the set points.
+`SetPointReceiver` and `StatusSender` are the drives' side; their words come back by `status`.
 """
 
 from .foxglove_server import FoxgloveProcess
+from .hello import limits_hash
 from .receiver import SetPointReceiver
 from .recorder_process import RecorderProcess
 from .ring_recorder import Recorded, RingRecorder
-from .setpoint import SetPoint, SetPointSender
+from .setpoint import SetPoint
+from .setpoint_sender import SetPointSender
+from .status_sender import StatusSender
 
 __all__ = [
     "FoxgloveProcess",
@@ -17,4 +20,6 @@ __all__ = [
     "SetPoint",
     "SetPointReceiver",
     "SetPointSender",
+    "StatusSender",
+    "limits_hash",
 ]

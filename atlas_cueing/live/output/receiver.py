@@ -13,11 +13,12 @@ from typing import Protocol
 from ...errors import SetPointError
 from ...rotation import ZERO, Vec3
 from ...signals import StageLimits, WheelLimits
-from ..control.axis import AxisLimits
+from ..control.axis import six_axes
 from ..control.command import Command, axes_of, command_from
 from ..control.guard import breach_of
 from .bridge import Bridge
-from .setpoint import Address, SetPoint, check_key, decode
+from .sealing import Address, check_key
+from .setpoint import SetPoint, decode
 
 AHEAD_S = 0.1  # s that a due time may lie in the future; more is a clock that is not the sender's
 REJOIN_S = 0.02  # s into its own stop that it may be led away from it
@@ -50,8 +51,8 @@ class _Piece:
 class ReceiverReport:
     """What the drives tell the loop.
 
-    state: waiting (nothing came yet), following, stopping (its own stop) or latched.
-    reason: why it stops or is latched; empty otherwise.
+    state: one of control.drive_status.DRIVE_STATES.
+    reason: why it stops or is latched, or why the last packet was refused while it waits.
     command: where the drives are; None while waiting.
     margin: least time from a packet's arrival until it was due, since the last report, s.
     good, refused: number of packets taken and not taken since the start.
@@ -89,11 +90,7 @@ class SetPointReceiver:
         Raises InputError for a bad key.
         """
         check_key(key)
-        wheels, stage = wheel_limits, stage_limits
-        turns = zip("123", wheels.speed, wheels.acceleration, wheels.jerk, strict=True)
-        rails = zip("xyz", stage.speed, stage.acceleration, stage.jerk, stage.travel, strict=True)
-        self._limits = [AxisLimits(f"wheel {name} ", _NO_TICK, *limit) for name, *limit in turns]
-        self._limits += [AxisLimits(f"stage {name} ", _NO_TICK, *limit) for name, *limit in rails]
+        self._limits = six_axes(_NO_TICK, wheel_limits, stage_limits)
         self._key = key
         self.good = self.refused = 0
         self.reset(place)
@@ -106,7 +103,7 @@ class SetPointReceiver:
         self._sender: Address | None = None
         self._newest: SetPoint | None = None
         self._stopping: int | None = None  # since when, ns
-        self._latched = ""
+        self._latched = self._refusal = ""
         self._margin = inf
 
     @property
@@ -121,13 +118,24 @@ class SetPointReceiver:
         """The last good set point; None before the first."""
         return self._newest
 
+    @property
+    def place(self) -> Vec3:
+        """Where the stage stands as long as it waits for a first set point, m, W."""
+        return self._place
+
+    @property
+    def state(self) -> tuple[str, str]:
+        """Its state and the reason, as in a report."""
+        if self._newest is None:
+            return "waiting", self._refusal
+        reason = self.tripped
+        return "latched" if self._latched else "stopping" if reason else "following", reason
+
     def report(self, now: int) -> ReceiverReport:
         """Return the state at `now` (ns), to be sent 50 times a second and when it changes."""
-        command, reason = self.at(now), self.tripped
-        state = "latched" if self._latched else "stopping" if reason else "following"
+        command = self.at(now)
         margin, self._margin = self._margin, inf
-        state = state if self._newest else "waiting"
-        return ReceiverReport(state, reason, command, margin, self.good, self.refused)
+        return ReceiverReport(*self.state, command, margin, self.good, self.refused)
 
     def take(self, packet: bytes, sender: Address, now: int) -> str:
         """Take a packet of `sender` that came at `now` (ns); return why it was refused, or ''."""
@@ -140,6 +148,7 @@ class SetPointReceiver:
             reason = self._stranger(point, sender, now) or self._follow(point, now)
         if reason:
             self.refused += 1
+            self._refusal = reason
             return reason
         self.good += 1
         self._sender = sender

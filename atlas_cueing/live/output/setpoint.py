@@ -1,4 +1,4 @@
-"""The set-point packet for a drive controller, version 2, and the socket that sends one every tick.
+"""The set-point packet for a drive controller, version 2, of which one is sent every tick.
 
 It is a UDP datagram of 200 bytes, little-endian, without padding: all fields lie where a C struct
 of the same order has them.
@@ -26,13 +26,10 @@ of the same order has them.
 |        |           | the first set point of a session                                            |
 |    184 | uint8[16] | check of bytes 0 to 183                                                     |
 
-Check 0 is the CRC-32 of zlib, PNG and Ethernet as a uint32, then 12 zeros; it finds damage, not
-forgery, and is for loopback.
-Check 1 is BLAKE2s (RFC 7693) with a shared key of 16 to 32 bytes, a digest of 16 bytes, no salt and
-no personalisation. A receiver with a key takes nothing but check 1. The key keeps out forged
-packets, and session and sequence replayed ones; but a receiver that has just been reset and has not
-received anything from its loop yet cannot distinguish an old session from a new one, except by its
-due time. Nothing in a packet is encrypted.
+The checks are those of `sealing`. The key keeps out forged packets, and session and sequence
+replayed ones; but a receiver that has just been reset and has not received anything from its loop
+yet cannot distinguish an old session from a new one, except by its due time. Nothing in a packet is
+encrypted.
 
 Set point k of a run is due one period after number k - 1, through holds, faults and lateness. It is
 sent about lead + dt ahead (`loop`), at the latest before number k - 1 is due; so k packets lost
@@ -64,32 +61,17 @@ beside the schedule is a constant of the run: a receiver may add any constant to
 count angles from any place where the platform stood.
 """
 
-import hmac
-import ipaddress
-import secrets
-import socket
-import zlib
 from dataclasses import dataclass
-from hashlib import blake2s
 from math import isfinite
 from struct import Struct
-from typing import TypeAlias
 
-from ...errors import InputError, SetPointError
+from ...errors import SetPointError
 from ...signals import LIVE_STATES
 from ..control.command import Command
+from .sealing import Layout, seal, unseal
 
-Address: TypeAlias = tuple[str, int]
-"""Host and port of a sender."""
-
-VERSION = 2
-CRC32, BLAKE2S = 0, 1
-SHORTEST_KEY = 16  # bytes
-LONGEST_KEY = blake2s.MAX_KEY_SIZE
-_MAGIC = b"ATSP"
-_content = Struct("<4sBBBxQQq19d")
-_CHECK = 16  # bytes
-SIZE = _content.size + _CHECK
+_LAYOUT = Layout(b"ATSP", 2, Struct("<4sBBBxQQq19d"), 5)
+SIZE = _LAYOUT.size
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,20 +112,10 @@ def encode(
         key: shared with the receiver; empty for CRC-32.
     """
     c = command
-    content = _content.pack(
-        *(
-            _MAGIC,
-            VERSION,
-            BLAKE2S if key else CRC32,
-            state,
-            session,
-            sequence,
-            due,
-            time,
-        ),
+    return seal(
+        *(_LAYOUT, key, state, session, sequence, due, time),
         *(*c.wheel_speed, *c.wheel_acceleration, *c.p_WS_W, *c.v_WS_W, *c.a_WS_W, *c.wheel_angle),
     )
-    return content + _check(content, key)
 
 
 def decode(packet: bytes, key: bytes = b"") -> SetPoint:
@@ -151,24 +123,7 @@ def decode(packet: bytes, key: bytes = b"") -> SetPoint:
 
     Raises SetPointError for a wrong size, magic, version, check, state or number.
     """
-    if len(packet) != SIZE:
-        raise SetPointError(f"packet of {len(packet)} bytes, allowed: {SIZE}")
-    content = packet[: _content.size]
-    magic, version, kind, state, session, sequence, due, *numbers = _content.unpack(content)
-    if magic != _MAGIC:
-        raise SetPointError(f"packet starts with {magic!r}, allowed: {_MAGIC!r}")
-    if version != VERSION:
-        raise SetPointError(f"packet of version {version}, allowed: {VERSION}")
-    wanted = BLAKE2S if key else CRC32
-    if kind != wanted:
-        raise SetPointError(
-            f"packet has check {kind}, allowed: {wanted}, as the receiver has"
-            f" {'a' if key else 'no'} key"
-        )
-    if not hmac.compare_digest(packet[_content.size :], _check(content, key)):
-        raise SetPointError(
-            f"packet {sequence} has a wrong check: it is damaged, or its sender has another key"
-        )
+    state, session, sequence, due, *numbers = unseal(_LAYOUT, packet, key)
     if state >= len(LIVE_STATES):
         raise SetPointError(
             f"packet {sequence} has state {state}, allowed: 0 <= state <= {len(LIVE_STATES) - 1}"
@@ -182,76 +137,3 @@ def decode(packet: bytes, key: bytes = b"") -> SetPoint:
     rates = (w1, w2, w3), (b1, b2, b3)
     command = Command(time, *rates, (px, py, pz), (vx, vy, vz), (ax, ay, az), (q1, q2, q3))
     return SetPoint(session, sequence, due, LIVE_STATES[state], command)
-
-
-class SetPointSender:
-    """Sends set points to one receiver and never waits for it.
-
-    unsent: packets that the kernel did not take: its buffer was full, or there is no receiver.
-    """
-
-    def __init__(self, host: str, port: int, key: bytes = b"") -> None:
-        """Connect to a numeric IPv4 address; one off this machine needs a shared key.
-
-        Raises InputError for an address without its key, one of a group or of all, and a bad port
-        or key.
-        """
-        check_key(key)
-        _check_address(host, key)
-        self.unsent = 0
-        self._key, self._session = key, secrets.randbits(64)
-        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self._socket.setblocking(False)
-        try:
-            self._socket.connect((host, port))
-        except (OSError, OverflowError) as error:
-            self._socket.close()
-            raise InputError(f"set points cannot be sent to {host}:{port}: {error}") from error
-
-    def send(self, sequence: int, time: float, due: int, state: int, command: Command) -> bool:
-        """Send one set point, see `encode`; what cannot be sent at once is not sent at all.
-
-        Return whether the kernel took it.
-        """
-        packet = encode(self._session, sequence, time, due, state, command, self._key)
-        try:
-            self._socket.send(packet)
-        except OSError:
-            # BlockingIOError: the buffer is full; ConnectionRefusedError: there is no receiver
-            self.unsent += 1
-            return False
-        return True
-
-    def close(self) -> None:
-        """Close the socket."""
-        self._socket.close()
-
-
-def check_key(key: bytes) -> None:
-    """Raise InputError for a key that is too short or too long; an empty one means none."""
-    if key and not SHORTEST_KEY <= len(key) <= LONGEST_KEY:
-        raise InputError(
-            f"shared key of {len(key)} bytes, allowed: {SHORTEST_KEY} <= bytes <= {LONGEST_KEY}"
-        )
-
-
-def _check_address(host: str, key: bytes) -> None:
-    try:
-        address = ipaddress.IPv4Address(host)
-    except ValueError as error:
-        raise InputError(
-            f"set-point receiver {host!r}: allowed: a numeric IPv4 address such as 127.0.0.1"
-        ) from error
-    if address.is_multicast or address.is_unspecified:
-        raise InputError(f"set-point receiver {host}: allowed: the address of one machine")
-    if not (address.is_loopback or key):
-        raise InputError(
-            f"set-point receiver {host} is not on this machine: allowed with a shared key only, or"
-            " 127.0.0.1"
-        )
-
-
-def _check(content: bytes, key: bytes) -> bytes:
-    if key:
-        return blake2s(content, digest_size=_CHECK, key=key).digest()
-    return zlib.crc32(content).to_bytes(_CHECK, "little")

@@ -1,7 +1,6 @@
 """Trajectories by themselves: where they lead, and that their rates are derivatives."""
 
 from collections.abc import Callable
-from itertools import pairwise
 from math import cos, pi, sin
 
 import numpy as np
@@ -15,12 +14,10 @@ from atlas_cueing.live.control.trajectories import (
     CALM_ACCELERATION,
     CALM_RATE,
     CALM_SPEED,
-    STOP_TIME,
     EngageTrajectory,
     FollowTrajectory,
     HoldTrajectory,
     ParkTrajectory,
-    StopTrajectory,
     Trajectory,
     calm_time,
     smoothstep,
@@ -34,7 +31,6 @@ DT = 2e-3
 FEW = settings(
     max_examples=8, phases=[Phase.explicit, Phase.reuse, Phase.generate]
 )  # each is a whole course; shrinking takes minutes
-TRAVEL = (1.0, 1.0, 0.75)
 HOME = Cue(0.0, IDENTITY, ZERO, ZERO, ZERO, ZERO)
 UPRIGHT = Motion(0.0, IDENTITY, ZERO, ZERO, ZERO, ZERO, ZERO, (0.0, 0.0))
 
@@ -140,51 +136,11 @@ def test_follow_is_the_cue_and_stay_is_a_place() -> None:
 
 
 @FEW
-@given(quaternions, rates, places, rates)
-def test_a_halt_fades_every_rate_out(q: Quat, w: Vec3, p: Vec3, v: Vec3) -> None:
-    halt = StopTrajectory(motion(q, w, p, v), DT, (5.0, 5.0, 5.0))
-    cues = drive(halt, STOP_TIME + 2 * DT)
-    check_derivatives(cues)
-    assert halt.arrived
-    end = cues[-1]
-    assert (end.w_WS_W, end.v_WS_W, end.a_WS_W) == (ZERO, ZERO, ZERO)
-    assert geodesic(end.q_WS, multiply(exp(scale(0.5 * STOP_TIME, w)), q)) < 1e-9
-    assert end.p_WS_W == pytest.approx(
-        [x + 0.5 * STOP_TIME * y for x, y in zip(p, v, strict=True)], abs=1e-12
-    )
-    turn = [norm(cue.w_WS_W) for cue in cues]
-    assert all(after <= before + 1e-12 for before, after in pairwise(turn))
-
-
-def test_a_halt_has_not_arrived_before_its_time() -> None:
-    halt = StopTrajectory(motion(w=(1.0, 0.0, 0.0)), DT, TRAVEL)
-    drive(halt, STOP_TIME - 2 * DT)
-    assert not halt.arrived
-
-
-@FEW
-@given(places, rates)
-def test_a_halt_stays_inside_the_travel(p: Vec3, v: Vec3) -> None:
-    """But for its first millisecond, at the very end of the travel."""
-    for cue in drive(StopTrajectory(motion(p=p, v=v), DT, TRAVEL), STOP_TIME, dt=0.01):
-        assert all(abs(x) <= limit + 1.5e-3 for x, limit in zip(cue.p_WS_W, TRAVEL, strict=True))
-
-
-@pytest.mark.parametrize("place", [0.999, 1.0, 1.0 + 1e-12])
-def test_a_halt_at_the_rail(place: float) -> None:
-    cues = drive(
-        StopTrajectory(motion(p=(place, 0.0, 0.0), v=(1.0, 0.0, 0.0)), DT, TRAVEL), STOP_TIME + DT
-    )
-    assert np.all(np.isfinite(columns(cues)[4]))
-    assert abs(cues[-1].p_WS_W[0] - 1.0) < 1e-3
-    assert cues[-1].v_WS_W == ZERO
-
-
-@FEW
 @given(quaternions, places)
 def test_home_by_the_shorter_way(q: Quat, p: Vec3) -> None:
-    home = ParkTrajectory(motion(q, p=p), DT)
-    cues = drive(home, home.duration + 2 * DT)
+    duration = max(1.0, calm_time(geodesic(q, IDENTITY), norm(p)))
+    home = ParkTrajectory(motion(q, p=p), DT, duration)
+    cues = drive(home, duration + 2 * DT)
     check_derivatives(cues)
     assert home.arrived
     assert geodesic(cues[-1].q_WS, IDENTITY) < 1e-7
@@ -196,9 +152,8 @@ def test_home_by_the_shorter_way(q: Quat, p: Vec3) -> None:
     assert max(norm(cue.v_WS_W) for cue in cues) <= CALM_SPEED * (1.0 + 1e-9)
 
 
-def test_home_takes_a_second_from_nowhere() -> None:
-    home = ParkTrajectory(UPRIGHT, DT)
-    assert home.duration == 1.0
+def test_home_has_not_arrived_before_its_time() -> None:
+    home = ParkTrajectory(UPRIGHT, DT, 1.0)
     drive(home, 0.99)
     assert not home.arrived
 

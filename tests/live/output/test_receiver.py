@@ -17,7 +17,8 @@ from atlas_cueing.errors import InputError
 from atlas_cueing.live.control.command import Command, axes_of, command_from
 from atlas_cueing.live.control.trajectories import smoothstep
 from atlas_cueing.live.output.receiver import SetPointReceiver
-from atlas_cueing.live.output.setpoint import SIZE, SetPointSender, encode
+from atlas_cueing.live.output.setpoint import SIZE, encode
+from atlas_cueing.live.output.setpoint_sender import SetPointSender
 
 from ..commands import REST
 from ..control.guard_states import STAGE, WHEELS, limits

@@ -16,7 +16,8 @@ from hypothesis import strategies as st
 from atlas_cueing.errors import InputError, SetPointError
 from atlas_cueing.live.control.command import Command
 from atlas_cueing.live.output import setpoint
-from atlas_cueing.live.output.setpoint import SIZE, SetPoint, SetPointSender, decode, encode
+from atlas_cueing.live.output.setpoint import SIZE, SetPoint, decode, encode
+from atlas_cueing.live.output.setpoint_sender import SetPointSender
 from atlas_cueing.signals import LIVE_STATES
 
 from ..commands import REST, any_command, swinging

@@ -1,0 +1,55 @@
+"""What the drives tell of themselves."""
+
+# mypyc: runs every tick
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from ...rotation import Vec3
+
+DRIVE_STATES = ("waiting", "following", "stopping", "latched")
+
+
+@dataclass(frozen=True, slots=True)
+class DriveStatus:
+    """The drives at `time`.
+
+    number: of the status, strictly increasing.
+    state: waiting (for a first set point), following, stopping (their own stop, also when it has
+        ended) or latched (until they are reset).
+    reason: why they stop or are latched, or why they wait; empty otherwise.
+    time: ns of the loop's clock.
+    followed: session of the set points that they follow; 0 while waiting.
+    newest: sequence of the newest set point taken.
+    margin: least time from a set point's arrival until it was due, since the status before, s;
+        infinite when none came.
+    limits: hash of the limits that they keep.
+    wheel_angle: of each wheel, rad.
+    p_WS_W: position of the stage, m.
+    good, refused: packets taken and not taken up to now.
+    """
+
+    number: int
+    state: str
+    reason: str
+    time: int
+    followed: int
+    newest: int
+    margin: float
+    limits: bytes
+    wheel_angle: Vec3
+    p_WS_W: Vec3
+    good: int
+    refused: int
+
+
+class DriveFeedback(Protocol):
+    """Where the drives' words come from."""
+
+    @property
+    def session(self) -> int:
+        """Session of the set points that go to these drives."""
+
+    def statuses(self) -> Sequence[DriveStatus]:
+        """Return what has come since the last call, in order, without waiting."""
