@@ -43,12 +43,6 @@ def late(rig: Rig) -> None:
     rig.tick(lateness=0.025)
 
 
-def broken_source(rig: Rig) -> None:
-    """For good: nothing may depend on its coming back."""
-    rig.source.raises = DefectError("source")
-    rig.tick()
-
-
 def broken_cueing(rig: Rig) -> None:
     once(rig, rig.platform._cueing)
 
@@ -108,11 +102,10 @@ def illegal_wheels(angle: float, speed: float) -> Fault:
 MATRIX: Mapping[str, tuple[Fault, frozenset[State], State]] = {
     "quiet 50 ms": (quiet(0.05), frozenset(), State.RUNNING),
     "quiet 150 ms": (quiet(0.15), FOLLOWING, State.HOLDING),
-    "quiet 1.5 s": (quiet(1.5), FOLLOWING | {State.HOLDING}, State.PARKING),
+    "quiet 1.5 s": (quiet(1.5), FOLLOWING, State.PARKING),
     "three bad samples": (bad_samples, FOLLOWING, State.HOLDING),
     "jump": (jump, FOLLOWING, State.HOLDING),
     "25 ms late": (late, ALL - FAULTS - {State.PARKED}, State.FAULT_STOPPING),
-    "source raises": (broken_source, ALL - FAULTS, State.FAULT_STOPPING),
     "cueing raises": (broken_cueing, FOLLOWING, State.FAULT_STOPPING),
     "smoothing raises": (broken_smoothing, ALL - FAULTS, State.FAULT_STOPPING),
     "stage shifted": (illegal(shifted), ALL - FAULTS, State.FAULT_STOPPING),

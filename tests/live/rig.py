@@ -90,7 +90,7 @@ class TumblingSource:
         self._t = self._newest = -inf
         self.quiet = self.jumps = self.over = False
         self.bad, self._row = 0, 0
-        self.raises: Exception | None = None
+        self.raises: BaseException | None = None
         self.pinned = self.closed = 0
         self.vehicle: VehicleState | None = None
         self.advanced: list[bool] = []

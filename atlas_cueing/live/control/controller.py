@@ -82,7 +82,8 @@ class LiveController:
         self._source = source
         self._operator = operator
         self._monitor = InputMonitor()
-        self._finishing = self._landing = False
+        self._finishing = self._landing = self._source_failed = False
+        self._stop_requests = self._requests_before_fault = 0
         # the last motion and command that went out
         self._last_motion = platform.motion
         self._last = standstill(platform.motion, platform.wheel_angle)
@@ -100,7 +101,12 @@ class LiveController:
 
     @property
     def over(self) -> bool:
-        """Whether the run is finished and the platform at rest for good."""
+        """Whether the run is finished and the platform at rest for good.
+
+        An attended one that a fault has stopped waits for its reset or for one more request to end.
+        """
+        if self.state is State.STOPPED and self._waits_for_reset():
+            return False
         return self.state in _REST_STATES and self._finishing and self._guard.standing
 
     @property
@@ -124,9 +130,9 @@ class LiveController:
         try:
             if not self._landing:
                 tick = self._make_tick(slot)
-        except Exception as error:  # noqa: BLE001
+        except BaseException as error:  # noqa: BLE001
             # After any error the platform must come to a stop
-            self._fail(f"{type(error).__name__}: {error}")
+            self._fail(_described(error))
         return self._guarded(slot.time, tick)
 
     def _make_tick(self, slot: Slot) -> Tick | None:
@@ -209,19 +215,32 @@ class LiveController:
         for name in self._operator.buttons():
             if name in BUTTON_EVENTS:
                 self._handle(BUTTON_EVENTS[name], f"asked to {name}")
-        stop_requests = self._operator.stop_requests()
-        if stop_requests > 1 and self.state not in _FAULT_STATES:
+        self._stop_requests = self._operator.stop_requests()
+        if self._stop_requests > 1 and self.state not in _FAULT_STATES:
             self._failures.append(("stopped", "asked to stop at once"))
             self._fail("asked to stop at once")
-        self._finishing |= stop_requests > 0 or time >= self._operator.duration
+        self._finishing |= self._stop_requests > 0 or time >= self._operator.duration
+
+    def _waits_for_reset(self) -> bool:
+        """Whether an operator is there, and nobody has asked to end since the fault."""
+        requests = self._stop_requests
+        return self._operator.attended and requests < 2 and requests <= self._requests_before_fault
 
     def _read_source(self, time: float, advance: bool) -> None:
-        """Read the source; a vehicle that fails ends the run as the end of its flight does."""
+        """Read the source; a vehicle that fails ends the run as the end of its flight does.
+
+        What else a source raises is a fault, and ends the run, too; neither is asked again.
+        """
+        if self._source_failed:
+            return
         try:
             self.reading = self._source.read(time, advance)
         except VehicleError as error:
             self._failures.append(("vehicle_failed", str(error)))
-            self._finishing = True
+            self._source_failed = self._finishing = True
+        except BaseException:
+            self._source_failed = self._finishing = True
+            raise
         else:
             self._dropped += self.reading.dropped
         self._vehicle = self.reading.vehicle or self._vehicle
@@ -239,6 +258,7 @@ class LiveController:
         if self.state in _FAULT_STATES:
             return
         self._faults += 1
+        self._requests_before_fault = self._stop_requests
         self._failures.append(("fault", reason))
         self._handle(Event.FAULT, reason)
 
@@ -257,6 +277,14 @@ class LiveController:
         if not self._operator.attended and self.state in _REST_STATES and not self._finishing:
             self._failures.append(("input_lost", "parked, since the input was lost"))
             self._finishing = True
+
+
+def _described(error: BaseException) -> str:
+    """Return the error in words; one that cannot tell them is named."""
+    try:
+        return f"{type(error).__name__}: {error}"
+    except BaseException:  # noqa: BLE001
+        return type(error).__name__
 
 
 def _retimed(tick: Tick, time: float) -> Tick:

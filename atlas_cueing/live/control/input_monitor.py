@@ -2,6 +2,8 @@
 
 # mypyc: runs every tick
 
+from math import inf
+
 from ..input.source import SourceReading
 from .state_machine import Event, State
 
@@ -21,11 +23,13 @@ class InputMonitor:
 
     It looks at the input only, never at the platform's motion or at the drives.
 
-    held: the operator has asked to hold; the hold then ends by an engagement only.
+    held: the operator has asked to hold; the hold then ends by an engagement only, and no loss of
+        the input ends it.
     """
 
     def __init__(self) -> None:
         self._good_since: float | None = None
+        self._last_held = -inf  # s; when the operator's hold was last seen
         self.held = False
 
     def good_for(self, time: float) -> float:
@@ -57,9 +61,12 @@ class InputMonitor:
     def _events_while_holding(
         self, time: float, moving: bool, reading: SourceReading
     ) -> list[tuple[Event, str]]:
-        if reading.age > LOST:
+        if self.held:
+            self._last_held = time
+            return []
+        if min(reading.age, time - self._last_held) > LOST:
             return [(Event.LOST, f"no input for {reading.age:.2f} s")]
-        if not self.held and not moving and self.good_for(time) >= GOOD_TO_RESUME:
+        if not moving and self.good_for(time) >= GOOD_TO_RESUME:
             return [(Event.READY, "input is good again")]
         return []
 

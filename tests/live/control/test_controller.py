@@ -1,5 +1,7 @@
 """One tick of the controller: events, outcomes of a run, and that a tick never raises."""
 
+from dataclasses import replace
+
 import pytest
 
 from atlas_cueing.errors import VehicleError
@@ -82,32 +84,109 @@ def test_unknown_buttons_do_nothing() -> None:
     assert rig.controller.outcome.faults == 0
 
 
-@pytest.mark.parametrize("attended", [False, True])
-def test_a_source_that_is_broken_for_good_does_not_keep_the_run_from_ending(attended: bool) -> None:
-    rig = rig_in(State.RUNNING, attended=attended)
-    rig.source.raises = RuntimeError("gone")
+class SilentError(BaseException):
+    """Nothing that code for errors expects, and it cannot even be shown."""
+
+    def __str__(self) -> str:
+        raise ValueError("no words")
+
+
+THROWN = {
+    "RuntimeError: gone": RuntimeError("gone"),
+    "SystemExit: 3": SystemExit(3),
+    "KeyboardInterrupt: ": KeyboardInterrupt(),
+    "GeneratorExit: ": GeneratorExit(),
+    "SilentError": SilentError(),
+}
+
+
+STATES = [state for state in State if state not in (State.FAULT_STOPPING, State.STOPPED)]
+
+
+@pytest.mark.parametrize(("state", "reason"), list(zip(STATES, THROWN, strict=False)))
+def test_a_vehicle_that_throws_ends_in_a_certified_stop(state: State, reason: str) -> None:
+    """Whatever it throws; an unattended run ends there."""
+    rig = rig_in(state, attended=False)
+    rig.source.raises = THROWN[reason]
     rig.tick()
     assert rig.state is State.FAULT_STOPPING
-    rig.until(State.STOPPED, 2.0)
-    assert rig.controller.over != attended
-    rig.wanted.signals = 1
-    rig.tick()
-    assert rig.controller.over
-    assert (rig.controller.outcome.result, rig.controller.outcome.reason) == (
-        "fault",
-        "RuntimeError: gone",
-    )
-    assert rig.controller.outcome.faults == 1
+    rig.until(lambda: rig.controller.over, 2.0)
+    outcome = rig.controller.outcome
+    assert (rig.state, outcome.result, outcome.faults) == (State.STOPPED, "fault", 1)
+    assert outcome.reason == reason
     assert rig.excess() <= ROUNDING
 
 
-def test_a_reset_with_a_broken_source_is_a_fault_again() -> None:
-    rig = rig_in(State.STOPPED)
+def test_a_vehicle_that_throws_is_not_asked_again_and_a_reset_leads_home() -> None:
+    rig = rig_in(State.RUNNING, attended=True)
     rig.source.raises = RuntimeError("gone")
-    rig.press("reset")
     rig.tick()
     rig.until(State.STOPPED, 2.0)
-    assert rig.controller.outcome.faults == 2
+    rig.fly(1.0)
+    assert not rig.controller.over
+    rig.press("reset")
+    rig.until(State.PARKED, 10.0)
+    rig.until(lambda: rig.controller.over, 2.0)
+    outcome = rig.controller.outcome
+    assert (outcome.result, outcome.reason, outcome.faults) == ("fault", "RuntimeError: gone", 1)
+    assert rig.excess() <= ROUNDING
+
+
+def begin_to_end(rig: Rig, cause: str) -> None:
+    """What sends an attended run home for good."""
+    if cause == "signal":
+        rig.wanted.signals = 1
+    elif cause == "flight":
+        rig.source.over = True
+    else:
+        rig.controller._operator = replace(rig.controller._operator, duration=0.0)
+    rig.until(State.PARKING, 0.1)
+    rig.fly(0.8)
+
+
+CAUSES = ("signal", "duration", "flight")
+
+
+@pytest.mark.parametrize("cause", CAUSES)
+@pytest.mark.parametrize("then", ["reset", "signal"])
+def test_a_fault_on_the_last_way_home_waits_for_its_reset(cause: str, then: str) -> None:
+    """Or for another request to end."""
+    rig = rig_in(State.RUNNING)
+    begin_to_end(rig, cause)
+    rig.tick(lateness=0.025)
+    rig.until(State.STOPPED, 3.0)
+    rig.fly(3.0)
+    assert not rig.controller.over
+    if then == "signal":
+        rig.wanted.signals += 1
+        rig.tick()
+        assert rig.controller.over
+        assert rig.state is State.STOPPED
+    else:
+        rig.press("reset")
+        rig.until(lambda: rig.controller.over, 10.0)
+        assert rig.state is State.PARKED
+    assert rig.controller.outcome.result == "fault"
+    assert rig.excess() <= ROUNDING
+
+
+@pytest.mark.parametrize("attended", [False, True])
+def test_two_requests_to_end_wait_for_nobody(attended: bool) -> None:
+    rig = rig_in(State.RUNNING, attended=attended)
+    rig.wanted.signals = 2
+    rig.until(lambda: rig.controller.over, 3.0)
+    assert (rig.state, rig.controller.outcome.result) == (State.STOPPED, "stopped")
+
+
+@pytest.mark.parametrize("cause", CAUSES)
+def test_an_operators_hold_outlasts_the_input_but_not_the_run(cause: str) -> None:
+    rig = rig_in(State.HOLDING)
+    rig.source.quiet = True
+    rig.fly(5.0)
+    assert rig.state is State.HOLDING
+    begin_to_end(rig, cause)
+    rig.until(lambda: rig.controller.over, 10.0)
+    assert (rig.state, rig.controller.outcome.result) == (State.PARKED, "ok")
 
 
 def test_the_vehicle_in_the_log_stays_where_it_was_when_a_source_breaks() -> None:

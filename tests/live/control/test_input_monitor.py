@@ -110,10 +110,20 @@ def test_an_operators_hold_does_not_end_by_itself() -> None:
     assert ready(monitor) is None
 
 
-@pytest.mark.parametrize("held", [False, True])
-def test_a_hold_waits_a_second_for_input(held: bool) -> None:
+def test_an_operators_hold_does_not_end_with_the_input() -> None:
+    """Nor does the engagement that ends it find the input lost at once."""
+    monitor, gone = InputMonitor(), replace(GOOD, age=100.0)
+    monitor.held = True
+    assert monitor.watch(1.0, State.HOLDING, False, gone) == []
+    monitor.held = False
+    assert monitor.watch(1.0 + LOST, State.HOLDING, False, gone) == []
+    assert [event for event, _ in monitor.watch(1.01 + LOST, State.HOLDING, False, gone)] == [
+        Event.LOST
+    ]
+
+
+def test_a_hold_waits_a_second_for_input() -> None:
     monitor = InputMonitor()
-    monitor.held = held
     assert monitor.watch(1.0, State.HOLDING, False, replace(GOOD, age=LOST)) == []
     assert monitor.watch(1.1, State.HOLDING, True, replace(GOOD, age=LOST + 0.01)) == [
         (Event.LOST, "no input for 1.01 s")
