@@ -27,7 +27,7 @@ from .state_machine import BUTTON_EVENTS, Event, State
 _REMEDY = "what helps: --priority, a longer --lead, a lower --rate, fewer programs beside it"
 
 _FAULT_STATES = (State.FAULT_STOPPING, State.STOPPED)
-_AWAY_FROM_PARK = (State.ENGAGING, State.RUNNING, State.HOLDING)
+_AWAY_FROM_PARK = (State.ENGAGING, State.RUNNING, State.HOLDING, State.WAITING)
 _REST_STATES = (State.PARKED, State.STOPPED)
 
 
@@ -83,6 +83,8 @@ class LiveController:
         self._operator = operator
         self._monitor = InputMonitor()
         self._finishing = self._landing = self._source_failed = False
+        # whether it was asked to engage, has had a good sample, and has set out to the cue
+        self._asked = self._heard = self._set_out = False
         self._stop_requests = self._requests_before_fault = 0
         # the last motion and command that went out
         self._last_motion = platform.motion
@@ -113,6 +115,8 @@ class LiveController:
     def outcome(self) -> RunOutcome:
         """How the run has gone up to now."""
         result, reason = self._failures[0] if self._failures else ("ok", "")
+        if result == "ok" and self._asked and not self._heard:
+            result, reason = "input_lost", self._absence()
         return RunOutcome(result, reason, self._faults, self._dropped)
 
     def engage(self) -> None:
@@ -200,7 +204,10 @@ class LiveController:
             time, self.state, self._platform.moving, self.reading
         ):
             self._handle(event, reason)
+        self._tell_remark(time)
         if self._finishing and self.state in _AWAY_FROM_PARK:
+            if self.state is State.WAITING and not self._set_out:
+                self._failures.append(("input_lost", self._absence()))
             self._handle(Event.PARK, "the run is over")
         if not put_off:
             self._start_engaging(time)
@@ -243,15 +250,32 @@ class LiveController:
             raise
         else:
             self._dropped += self.reading.dropped
+        self._heard |= self.reading.vehicle is not None
         self._vehicle = self.reading.vehicle or self._vehicle
         self._finishing |= self.reading.over
 
+    def _tell_remark(self, time: float) -> None:
+        """Tell what the user should know of the input, as the state's new reason."""
+        remark = self._monitor.remark(time, self.state, self.reading)
+        if remark:
+            self._changes.append((self.state, remark))
+
+    def _absence(self) -> str:
+        """Return why the ride had no input."""
+        reading = self.reading
+        return f"no good input: {reading.remark or reading.reason or 'nothing came'}"
+
     def _start_engaging(self, time: float) -> None:
-        """Start to blend to the cue, once the input has been good for long enough."""
+        """Start to blend to the cue, once the input has been good for long enough.
+
+        From then on only its present sender is believed.
+        """
         waiting = self.state is State.ENGAGING and not self._platform.tracking
         wanted = GOOD_TO_ENGAGE if self._platform.needs_cueing else 0.0
         if waiting and self.reading.vehicle and self._monitor.good_for(time) >= wanted:
             self._platform.start_engaging(self._vehicle)
+            self._source.pin()
+            self._set_out = True
 
     def _fail(self, reason: str) -> None:
         """Raise a fault, unless there is one already."""
@@ -266,7 +290,9 @@ class LiveController:
         """Take one event to monitor, source and state machine; note a change of state."""
         if event is Event.ENGAGE:
             self._monitor.held = False
-            self._source.pin()
+            self._asked = True
+            if self.state is State.PARKED:  # perhaps the simulator has been started anew
+                self._source.release()
         elif event is Event.HOLD:
             self._monitor.held = True
         if not self._platform.handle(event):

@@ -206,7 +206,7 @@ class PlatformController:
                 self._trajectory = StopTrajectory(self._motion, self._dt, self._travel)
             case State.PARKED:
                 self._cueing, self._trajectory = None, HoldTrajectory(self._motion)
-            case State.ENGAGING:
+            case State.ENGAGING | State.WAITING:
                 self._trajectory = HoldTrajectory(self._motion)
 
     def _take_cueing(self) -> CueSource:
