@@ -21,9 +21,9 @@ Examples:
 
   atlas-cueing live scenarios/live/flightgear.toml --setpoints 127.0.0.1:5600 --foxglove 8765
 
-Ctrl-C or SIGTERM parks the platform and finishes the log; a second one stops it at once. This
-program is not a safety device: emergency stop and the monitoring of speed and position belong to
-hardware.
+Ctrl-C, SIGTERM or a terminal that hangs up parks the platform and finishes the log; a second one
+stops it at once. This is not a safety device: emergency stop and the monitoring of speed and
+position belong to hardware.
 """
 
 

@@ -4,6 +4,7 @@ Only this part has metrics: a parked platform is not meant to follow.
 """
 
 from collections.abc import Sequence
+from itertools import groupby
 
 import numpy as np
 
@@ -18,6 +19,8 @@ def engaged_segment(flight: RunColumns, changes: Sequence[StateChange]) -> RunCo
 
     A change of state at t counts from the tick at t on, which is the first of the new state.
     """
+    # a state with a new reason goes on
+    changes = [next(same) for _, same in groupby(changes, lambda change: change.state)]
     starts = np.array([change.time for change in changes])
     ends = np.append(starts, np.inf)[1:]
     stretches = [

@@ -2,8 +2,9 @@
 
 from ..run import open_vehicle
 from ..scenario import Scenario
-from ..vehicles import FlightgearFlight
-from .input import FlightgearSource, Source, UdpReceiver, VehicleSource
+from ..vehicles import Bounds, FlightgearFlight
+from ..vehicles.flightgear import decode
+from .input import PacketSource, PacketStream, Source, UdpReceiver, VehicleSource
 
 
 def open_source(scenario: Scenario) -> Source:
@@ -14,5 +15,22 @@ def open_source(scenario: Scenario) -> Source:
     """
     flight = scenario.live_flight
     if isinstance(flight, FlightgearFlight):
-        return FlightgearSource(UdpReceiver(flight.host, flight.port), flight.rate_hz)
+        return _of_packets(flight)
     return VehicleSource(open_vehicle(scenario, live=True))
+
+
+def _of_packets(flight: FlightgearFlight) -> PacketSource:
+    receiver = UdpReceiver(flight.host, flight.port)
+    place = f"UDP {flight.host}:{flight.port}"
+    return PacketSource(receiver, flightgear_stream(place, flight.rate_hz, flight.hold_after))
+
+
+def flightgear_stream(place: str, rate_hz: float, hold_after: float) -> PacketStream:
+    """Return what is known of FlightGear's packets, see PacketStream."""
+    bounds = Bounds()
+    return PacketStream(
+        lambda content, arrival: (decode(content, arrival, bounds), None),
+        place,
+        rate_hz,
+        hold_after,
+    )

@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM as a number that is looked at between two ticks.
+"""Ctrl-C, SIGTERM and SIGHUP as a number that is looked at between two ticks.
 
 So the log is always finished.
 """
@@ -8,12 +8,15 @@ import threading
 from types import FrameType, TracebackType
 from typing import Any, Self
 
-_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class StopRequest:
     """Counts the signals that ask this process to end, while it is entered.
 
+    SIGHUP counts only as the first: a terminal that is closed sends two, by its shell and by the
+    kernel, and a service manager may send one beside SIGTERM. Where it was ignored at the start, as
+    nohup does, it stays ignored.
     Outside the main thread, where Python does not deliver signals, nothing is counted.
     """
 
@@ -34,7 +37,11 @@ class StopRequest:
 
     def __enter__(self) -> Self:
         if threading.current_thread() is threading.main_thread():
-            self._before = {number: signal.signal(number, self._handle) for number in _SIGNALS}
+            self._before = {
+                number: signal.signal(number, self._handle)
+                for number in _SIGNALS
+                if number is not signal.SIGHUP or signal.getsignal(number) is not signal.SIG_IGN
+            }
         return self
 
     def __exit__(
@@ -46,7 +53,9 @@ class StopRequest:
         for number, handler in self._before.items():
             signal.signal(number, handler)
 
-    def _handle(self, _number: int, _frame: FrameType | None) -> None:
+    def _handle(self, number: int, _frame: FrameType | None) -> None:
+        if number == signal.SIGHUP and self.count:
+            return
         self.count += 1
         if self._interrupt and self.count > 1:
             raise KeyboardInterrupt

@@ -49,8 +49,14 @@ TOPICS = (
 )
 
 
-LIVE_STATES = ("parked", "engaging", "running", "holding", "parking", "fault_stopping", "stopped")
-"""States of the real-time loop; /timing has their place in this list, /status their name."""
+LIVE_STATES = (
+    *("parked", "engaging", "running", "holding", "parking", "fault_stopping", "stopped"),
+    "waiting",
+)
+"""States of the real-time loop; /timing has their place in this list, /status their name.
+
+A new one is appended: logs and receivers know the others by their places.
+"""
 
 TIMING = Topic(
     "/timing",

@@ -5,7 +5,7 @@ an aircraft in JSBSim, test signals, and the packets of a simulator elsewhere. `
 plays recorded states back. `LimitedDuration` ends any of them after the time that is asked for.
 """
 
-from .bounds import Bounds
+from .bounds import Bounds, PacketError
 from .flight import Flight
 from .flightgear import FlightgearFlight
 from .flown_ahead import FlownAhead
@@ -27,6 +27,7 @@ __all__ = [
     "InitialConditions",
     "JsbsimVehicle",
     "LimitedDuration",
+    "PacketError",
     "RecordedVehicle",
     "ScriptFlight",
     "Signal",

@@ -4,9 +4,14 @@
 
 from dataclasses import dataclass
 
+from ..errors import AtlasError
 from ..rotation import norm
 from ..signals import VehicleState
 from ..signals.felt import STANDARD_GRAVITY
+
+
+class PacketError(AtlasError):
+    """A packet is not one of a vehicle that people ride in; the text says why."""
 
 
 @dataclass(frozen=True, slots=True)

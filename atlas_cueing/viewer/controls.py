@@ -64,7 +64,7 @@ class Controls:
             button.on_click(self._clicked(name))
         self._note = gui.add_html("")
         self._figures = gui.add_html("")
-        self.show_state("waiting", "for the loop to begin")
+        self.show_state("starting", "the loop is about to begin")
 
     def show_state(self, state: str, reason: str) -> None:
         """Show a state and the reason for it; enable the buttons that it allows."""

@@ -11,6 +11,7 @@ from .rig import Rig
 Fault = Callable[[Rig], None]
 ALL = frozenset(State)
 FAULTS = frozenset({State.FAULT_STOPPING, State.STOPPED})
+AT_REST = frozenset({State.PARKED, State.WAITING})
 FOLLOWING = frozenset({State.ENGAGING, State.RUNNING})
 
 
@@ -38,15 +39,9 @@ def jump(rig: Rig) -> None:
 
 
 def late(rig: Rig) -> None:
-    if rig.state is State.PARKED:
+    if rig.state in AT_REST:
         rig.until(lambda: rig.guard.standing, 10.0)
     rig.tick(lateness=0.025)
-
-
-def broken_source(rig: Rig) -> None:
-    """For good: nothing may depend on its coming back."""
-    rig.source.raises = DefectError("source")
-    rig.tick()
 
 
 def broken_cueing(rig: Rig) -> None:
@@ -108,11 +103,10 @@ def illegal_wheels(angle: float, speed: float) -> Fault:
 MATRIX: Mapping[str, tuple[Fault, frozenset[State], State]] = {
     "quiet 50 ms": (quiet(0.05), frozenset(), State.RUNNING),
     "quiet 150 ms": (quiet(0.15), FOLLOWING, State.HOLDING),
-    "quiet 1.5 s": (quiet(1.5), FOLLOWING | {State.HOLDING}, State.PARKING),
+    "quiet 1.5 s": (quiet(1.5), FOLLOWING, State.PARKING),
     "three bad samples": (bad_samples, FOLLOWING, State.HOLDING),
     "jump": (jump, FOLLOWING, State.HOLDING),
-    "25 ms late": (late, ALL - FAULTS - {State.PARKED}, State.FAULT_STOPPING),
-    "source raises": (broken_source, ALL - FAULTS, State.FAULT_STOPPING),
+    "25 ms late": (late, ALL - FAULTS - AT_REST, State.FAULT_STOPPING),
     "cueing raises": (broken_cueing, FOLLOWING, State.FAULT_STOPPING),
     "smoothing raises": (broken_smoothing, ALL - FAULTS, State.FAULT_STOPPING),
     "stage shifted": (illegal(shifted), ALL - FAULTS, State.FAULT_STOPPING),
@@ -123,5 +117,6 @@ MATRIX: Mapping[str, tuple[Fault, frozenset[State], State]] = {
 LEADS_ON = {
     State.FAULT_STOPPING: {State.STOPPED},
     State.PARKING: {State.PARKED},
+    State.WAITING: {State.ENGAGING},
     State.ENGAGING: {State.RUNNING},
 }

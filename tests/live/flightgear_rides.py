@@ -5,12 +5,13 @@ from collections.abc import Sequence
 
 from vehicles.packets import euler_rates, packet
 
-from atlas_cueing.live.input.flightgear_source import FlightgearSource
+from atlas_cueing.live.input.packet_source import PacketSource
 from atlas_cueing.live.input.source import SourceReading
 from atlas_cueing.live.input.udp import Address, Datagram
+from atlas_cueing.live.open_source import flightgear_stream
 from atlas_cueing.rotation import to_euler
 from atlas_cueing.signals import VehicleState
-from atlas_cueing.vehicles.flightgear import METRES_PER_FOOT, normal_gravity
+from atlas_cueing.vehicles.flightgear import DEFAULT_HOLD_AFTER, METRES_PER_FOOT, normal_gravity
 
 from .motions import Motion
 
@@ -41,6 +42,9 @@ class Port:
     def pin(self, sender: Address) -> None:
         self.pinned = sender
 
+    def release(self) -> None:
+        self.pinned = None
+
     def close(self) -> None:
         self.closed = True
 
@@ -48,9 +52,11 @@ class Port:
 class Simulator:
     """A source on such a port, and the motion that the simulator flies."""
 
-    def __init__(self, rate_hz: float = RATE) -> None:
-        self.port, self.motion = Port(), Motion(6.0)
-        self.source = FlightgearSource(self.port, rate_hz)
+    def __init__(
+        self, rate_hz: float = RATE, hold_after: float = DEFAULT_HOLD_AFTER, seconds: float = 6.0
+    ) -> None:
+        self.port, self.motion = Port(), Motion(seconds)
+        self.source = PacketSource(self.port, flightgear_stream("a port", rate_hz, hold_after))
 
     def send(self, times: Sequence[float], delay: float = 0.0) -> None:
         for t in times:

@@ -93,8 +93,9 @@ class TumblingSource:
         self._t = self._newest = -inf
         self.quiet = self.jumps = self.over = False
         self.bad, self._row = 0, 0
-        self.raises: Exception | None = None
-        self.pinned = self.closed = 0
+        self.raises: BaseException | None = None
+        self.pinned = self.released = self.closed = 0
+        self.remark = ""
         self.vehicle: VehicleState | None = None
         self.advanced: list[bool] = []
 
@@ -119,11 +120,15 @@ class TumblingSource:
         vehicle = self.vehicle and replace(self.vehicle, time=time)
         reason = "NaN" if dropped else "reset" if jumped else ""
         return SourceReading(
-            vehicle, time - self._newest, dropped, self._row, jumped, self.over, reason
+            *(vehicle, time - self._newest, dropped, self._row, jumped, self.over, reason),
+            remark=self.remark,
         )
 
     def pin(self) -> None:
         self.pinned += 1
+
+    def release(self) -> None:
+        self.released += 1
 
     def close(self) -> None:
         self.closed += 1
@@ -266,8 +271,14 @@ class Rig:
         if state is State.PARKED:
             self.fly(0.1)
             return
+        self.source.quiet = state is State.WAITING
+        self.fly(0.2 if state is State.WAITING else 0.0)
         self.press("engage")
         self.until(State.ENGAGING, 0.1)
+        if state is State.WAITING:
+            self.until(State.WAITING, 2.0)
+            self.source.quiet = False
+            return
         self.until(lambda: self.platform.tracking, 2.0)
         self.fly(2.5)
         if state is State.ENGAGING:

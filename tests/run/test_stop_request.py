@@ -9,6 +9,32 @@ from atlas_cueing.run.stop_request import StopRequest
 NUMBERS = (signal.SIGINT, signal.SIGTERM)
 
 
+@pytest.mark.parametrize("interrupt", [False, True])
+def test_a_terminal_that_hangs_up_asks_once(interrupt: bool) -> None:
+    """Its shell and the kernel both say so; only another signal is a second request."""
+    before = signal.getsignal(signal.SIGHUP)
+    with StopRequest(interrupt=interrupt) as stop:
+        for _ in range(3):
+            signal.raise_signal(signal.SIGHUP)
+        assert stop.count == 1
+        if not interrupt:
+            signal.raise_signal(signal.SIGTERM)
+            signal.raise_signal(signal.SIGHUP)
+            assert stop.count == 2
+    assert signal.getsignal(signal.SIGHUP) is before
+
+
+def test_a_hangup_that_was_ignored_before_is_ignored() -> None:
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with StopRequest() as stop:
+            signal.raise_signal(signal.SIGHUP)
+            assert stop.count == 0
+        assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+
 @pytest.mark.parametrize("number", NUMBERS)
 def test_a_signal_is_a_request_and_the_next_one_interrupts(number: signal.Signals) -> None:
     before = signal.getsignal(number)

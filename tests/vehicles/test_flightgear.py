@@ -182,10 +182,10 @@ def test_what_is_not_finite_or_absurd_is_refused(name: str, bad: float, index: i
         (packet(height=-50.0), "height above ground -50 m"),
         (packet(height=nan), "height above ground nan m"),
         (packet(position=(0.0, 0.0, -6.3e6)), "nowhere"),
-        (packet(version=25), "version 25 of the native FDM packet, allowed: 24"),
+        (packet(version=25), r"version 25 of the native FDM packet \(\d+ bytes\), allowed: 24"),
         (packet(version=25) + bytes(552 - 408), "version 25 .* \\(552 bytes\\)"),
         (packet(version=0), "version 0"),
-        (packet(version=24 << 24), "version 402653184"),  # the other byte order
+        (packet(version=24 << 24), "swapped bytes: version 24"),  # the other byte order
         (packet()[:-1], "407 bytes, allowed: 408"),
         (packet() + b"\0", "409 bytes, allowed: 408"),
         (b"", "0 bytes, allowed: 408"),

@@ -44,7 +44,7 @@ def live(server: Any, platform: Platform) -> Live:
 
 def test_before_the_first_tick(live: Live) -> None:
     live.look()
-    assert "waiting" in live.head
+    assert "starting" in live.head
     assert live.enabled() == set()
 
 

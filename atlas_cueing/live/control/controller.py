@@ -28,7 +28,7 @@ from .state_machine import BUTTON_EVENTS, Event, State
 _REMEDY = "what helps: --priority, a longer --lead, a lower --rate, fewer programs beside it"
 
 _FAULT_STATES = (State.FAULT_STOPPING, State.STOPPED)
-_AWAY_FROM_PARK = (State.ENGAGING, State.RUNNING, State.HOLDING)
+_AWAY_FROM_PARK = (State.ENGAGING, State.RUNNING, State.HOLDING, State.WAITING)
 _REST_STATES = (State.PARKED, State.STOPPED)
 
 
@@ -89,7 +89,10 @@ class LiveController:
         self._operator = operator
         self._drives = drives
         self._monitor = InputMonitor()
-        self._finishing = self._landing = False
+        self._finishing = self._landing = self._source_failed = False
+        # whether it was asked to engage, has had a good sample, and has set out to the cue
+        self._asked = self._heard = self._set_out = False
+        self._stop_requests = self._requests_before_fault = 0
         # the last motion and command that went out
         self._last_motion = platform.motion
         self._last = standstill(platform.motion, platform.wheel_angle)
@@ -107,7 +110,12 @@ class LiveController:
 
     @property
     def over(self) -> bool:
-        """Whether the run is finished and the platform at rest for good, the drives as well."""
+        """Whether the run is finished and the platform at rest for good, the drives as well.
+
+        An attended one that a fault has stopped waits for its reset or for one more request to end.
+        """
+        if self.state is State.STOPPED and self._waits_for_reset():
+            return False
         if not (self.state in _REST_STATES and self._finishing and self._guard.standing):
             return False
         return self.state is State.STOPPED or self._drives is None or self._drives.settled
@@ -116,6 +124,8 @@ class LiveController:
     def outcome(self) -> RunOutcome:
         """How the run has gone up to now."""
         result, reason = self._failures[0] if self._failures else ("ok", "")
+        if result == "ok" and self._asked and not self._heard:
+            result, reason = "input_lost", self._absence()
         return RunOutcome(result, reason, self._faults, self._dropped)
 
     def engage(self) -> None:
@@ -134,9 +144,9 @@ class LiveController:
             self._watch_drives(slot)
             if not self._landing:
                 tick = self._make_tick(slot)
-        except Exception as error:  # noqa: BLE001
+        except BaseException as error:  # noqa: BLE001
             # After any error the platform must come to a stop
-            self._fail(f"{type(error).__name__}: {error}")
+            self._fail(_described(error))
         tick, command = self._guarded(slot.time, tick)
         if self._drives:
             self._drives.commanded(slot.due, command)
@@ -215,7 +225,10 @@ class LiveController:
             time, self.state, self._platform.moving, self.reading
         ):
             self._handle(event, reason)
+        self._tell_remark(time)
         if self._finishing and self.state in _AWAY_FROM_PARK:
+            if self.state is State.WAITING and not self._set_out:
+                self._failures.append(("input_lost", self._absence()))
             self._handle(Event.PARK, "the run is over")
         if not put_off:
             self._start_engaging(time)
@@ -232,37 +245,68 @@ class LiveController:
                 self._changes.append((self.state, f"not reset: {self._drives.trouble}"))
             elif name in BUTTON_EVENTS:
                 self._handle(BUTTON_EVENTS[name], f"asked to {name}")
-        stop_requests = self._operator.stop_requests()
-        if stop_requests > 1 and self.state not in _FAULT_STATES:
+        self._stop_requests = self._operator.stop_requests()
+        if self._stop_requests > 1 and self.state not in _FAULT_STATES:
             self._failures.append(("stopped", "asked to stop at once"))
             self._fail("asked to stop at once")
-        self._finishing |= stop_requests > 0 or time >= self._operator.duration
+        self._finishing |= self._stop_requests > 0 or time >= self._operator.duration
+
+    def _waits_for_reset(self) -> bool:
+        """Whether an operator is there, and nobody has asked to end since the fault."""
+        requests = self._stop_requests
+        return self._operator.attended and requests < 2 and requests <= self._requests_before_fault
 
     def _read_source(self, time: float, advance: bool) -> None:
-        """Read the source; a vehicle that fails ends the run as the end of its flight does."""
+        """Read the source; a vehicle that fails ends the run as the end of its flight does.
+
+        What else a source raises is a fault, and ends the run, too; neither is asked again.
+        """
+        if self._source_failed:
+            return
         try:
             self.reading = self._source.read(time, advance)
         except VehicleError as error:
             self._failures.append(("vehicle_failed", str(error)))
-            self._finishing = True
+            self._source_failed = self._finishing = True
+        except BaseException:
+            self._source_failed = self._finishing = True
+            raise
         else:
             self._dropped += self.reading.dropped
+        self._heard |= self.reading.vehicle is not None
         self._vehicle = self.reading.vehicle or self._vehicle
         self._finishing |= self.reading.over
 
+    def _tell_remark(self, time: float) -> None:
+        """Tell what the user should know of the input, as the state's new reason."""
+        remark = self._monitor.remark(time, self.state, self.reading)
+        if remark:
+            self._changes.append((self.state, remark))
+
+    def _absence(self) -> str:
+        """Return why the ride had no input."""
+        reading = self.reading
+        return f"no good input: {reading.remark or reading.reason or 'nothing came'}"
+
     def _start_engaging(self, time: float) -> None:
-        """Start to blend to the cue, once the input has been good for long enough."""
+        """Start to blend to the cue, once the input has been good for long enough.
+
+        From then on only its present sender is believed.
+        """
         waiting = self.state is State.ENGAGING and not self._platform.tracking
         waiting &= not (self._drives and self._drives.trouble)
         wanted = GOOD_TO_ENGAGE if self._platform.needs_cueing else 0.0
         if waiting and self.reading.vehicle and self._monitor.good_for(time) >= wanted:
             self._platform.start_engaging(self._vehicle)
+            self._source.pin()
+            self._set_out = True
 
     def _fail(self, reason: str) -> None:
         """Raise a fault, unless there is one already."""
         if self.state in _FAULT_STATES:
             return
         self._faults, self._landing = self._faults + 1, False
+        self._requests_before_fault = self._stop_requests
         self._failures.append(("fault", reason))
         self._handle(Event.FAULT, reason)
 
@@ -270,7 +314,9 @@ class LiveController:
         """Take one event to monitor, source and state machine; note a change of state."""
         if event is Event.ENGAGE:
             self._monitor.held = False
-            self._source.pin()
+            self._asked = True
+            if self.state is State.PARKED:  # perhaps the simulator has been started anew
+                self._source.release()
         elif event is Event.HOLD:
             self._monitor.held = True
         if not self._platform.handle(event):
@@ -281,6 +327,14 @@ class LiveController:
         if not self._operator.attended and self.state in _REST_STATES and not self._finishing:
             self._failures.append(("input_lost", "parked, since the input was lost"))
             self._finishing = True
+
+
+def _described(error: BaseException) -> str:
+    """Return the error in words; one that cannot tell them is named."""
+    try:
+        return f"{type(error).__name__}: {error}"
+    except BaseException:  # noqa: BLE001
+        return type(error).__name__
 
 
 def _retimed(tick: Tick, time: float) -> Tick:

@@ -233,7 +233,7 @@ class PlatformController:
                     self._trajectory = self._new_stop()
             case State.PARKED:
                 self._cueing, self._trajectory = None, HoldTrajectory(self._motion)
-            case State.ENGAGING:
+            case State.ENGAGING | State.WAITING:
                 self._leave_stop()
                 self._trajectory = HoldTrajectory(self._motion)
 

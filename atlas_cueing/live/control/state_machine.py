@@ -7,6 +7,7 @@ HOLDING         comes to rest and keeps its attitude
 PARKING         comes to rest and moves back to upright in the centre
 FAULT_STOPPING  executes the guard's certified stop; no command from above is taken
 STOPPED         at rest after a fault; latched until a reset
+WAITING         stands where it is, asked to engage: no good input comes, and the reason is told
 
 The table has no guard conditions: an event is raised only when its condition holds. The conditions
 on the input are in `InputMonitor`, those on the platform's motion in `PlatformController`, those on
@@ -29,6 +30,7 @@ class State(Enum):
     PARKING = "parking"
     FAULT_STOPPING = "fault_stopping"
     STOPPED = "stopped"
+    WAITING = "waiting"
 
     @property
     def number(self) -> int:
@@ -44,6 +46,7 @@ class Event(Enum):
     READY: the input has been good for long enough and the platform stands.
     BAD: no input for a while, too many bad samples, or a jump of the vehicle.
     LOST: no input for so long that waiting for it is given up.
+    ABSENT: asked to engage, and no good input for so long that the reason should be told.
     ARRIVED: the motion that belongs to the state has been completed.
     FAULT: the loop missed its deadlines, the tick raised an exception, the guard refused a command,
         or a stop at once was requested.
@@ -56,6 +59,7 @@ class Event(Enum):
     READY = auto()
     BAD = auto()
     LOST = auto()
+    ABSENT = auto()
     ARRIVED = auto()
     FAULT = auto()
 
@@ -70,6 +74,7 @@ TRANSITIONS: Mapping[State, Mapping[Event, State]] = {
         Event.PARK: State.PARKING,
         Event.BAD: State.HOLDING,
         Event.LOST: State.PARKING,
+        Event.ABSENT: State.WAITING,
         Event.ARRIVED: State.RUNNING,
         Event.FAULT: State.FAULT_STOPPING,
     },
@@ -96,6 +101,12 @@ TRANSITIONS: Mapping[State, Mapping[Event, State]] = {
     },
     State.STOPPED: {
         Event.RESET: State.PARKING,
+    },
+    State.WAITING: {
+        Event.HOLD: State.HOLDING,
+        Event.PARK: State.PARKING,
+        Event.READY: State.ENGAGING,
+        Event.FAULT: State.FAULT_STOPPING,
     },
 }
 """The next state by state and event; an event that a state does not list leaves it as it is."""

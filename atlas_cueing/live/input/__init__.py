@@ -1,13 +1,14 @@
 """Sources: where the vehicle comes from in real time."""
 
-from .flightgear_source import FlightgearSource
+from .packet_source import PacketSource, PacketStream
 from .source import Source, SourceReading, no_vehicle
 from .udp import Datagram, Receiver, UdpReceiver
 from .vehicle_source import VehicleSource
 
 __all__ = [
     "Datagram",
-    "FlightgearSource",
+    "PacketSource",
+    "PacketStream",
     "Receiver",
     "Source",
     "SourceReading",

@@ -8,6 +8,8 @@ from typing import Protocol
 from ...rotation import IDENTITY, ZERO, Vec3
 from ...signals import STANDARD_GRAVITY, VehicleState
 
+STALE = 0.1  # s without a good sample that are borne, unless a source knows better
+
 _REST_FORCE: Vec3 = (0.0, 0.0, -STANDARD_GRAVITY)
 
 
@@ -25,6 +27,9 @@ class SourceReading:
         or in force.
     over: the flight is over, nothing will come any more.
     reason: why the last sample was dropped, or what jumped; empty otherwise.
+    patience: age of the newest good sample that is borne, s; beyond it the input is no good.
+    remark: what the user should know of the input, once: why no good sample comes, or that it is
+        not as the scenario says; empty otherwise.
     """
 
     vehicle: VehicleState | None
@@ -34,6 +39,8 @@ class SourceReading:
     jumped: bool
     over: bool
     reason: str
+    patience: float = STALE
+    remark: str = ""
 
 
 class Source(Protocol):
@@ -52,6 +59,9 @@ class Source(Protocol):
 
     def pin(self) -> None:
         """From now on take samples of the present sender only."""
+
+    def release(self) -> None:
+        """Take samples of any sender again."""
 
     def close(self) -> None:
         """Release what the source holds; nothing is read after it."""

@@ -1,5 +1,6 @@
 """Receives datagrams at a port, without waiting."""
 
+import ctypes
 import socket
 from contextlib import suppress
 from struct import Struct
@@ -16,6 +17,7 @@ BUFFER = 64 * 1024
 
 _SO_TIMESTAMPNS = 35  # Linux, asm-generic/socket.h; Python has no name for it
 _TIMESPEC = Struct("@ll")
+_SOCKADDR_SIZE = 16  # bytes of a struct sockaddr; a family of zero is AF_UNSPEC
 _ANCILLARY = socket.CMSG_SPACE(_TIMESPEC.size)
 
 
@@ -35,6 +37,9 @@ class Receiver(Protocol):
 
     def pin(self, sender: Address) -> None:
         """From now on take datagrams of this sender only."""
+
+    def release(self) -> None:
+        """Take datagrams of any sender again."""
 
     def close(self) -> None:
         """Close the port."""
@@ -83,6 +88,15 @@ class UdpReceiver:
         """Take datagrams of this sender only; what others sent before may still be received."""
         with suppress(OSError):
             self._socket.connect(sender)
+
+    def release(self) -> None:
+        """Take datagrams of any sender again; the port stays its own."""
+        # AF_UNSPEC dissolves the connection of a datagram socket (connect(2)); Python cannot say it
+        place, nowhere = self.address, bytes(_SOCKADDR_SIZE)
+        ctypes.CDLL(None).connect(self._socket.fileno(), nowhere, len(nowhere))
+        if self.address != place:  # a port that the system chose is given up with the connection
+            with suppress(OSError):
+                self._socket.bind(place)
 
     def close(self) -> None:
         """Close the socket."""

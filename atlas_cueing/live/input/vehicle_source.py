@@ -55,6 +55,9 @@ class VehicleSource:
     def pin(self) -> None:
         """Do nothing: there is only one sender."""
 
+    def release(self) -> None:
+        """Do nothing: there is only one sender."""
+
     def close(self) -> None:
         """Do nothing: there is nothing to release."""
 

@@ -9,7 +9,7 @@ of the same order has them.
 |      4 | uint8     | version: 2                                                                  |
 |      5 | uint8     | kind of check: 0 = CRC-32, 1 = keyed BLAKE2s                                |
 |      6 | uint8     | state: 0 parked, 1 engaging, 2 running, 3 holding, 4 parking,               |
-|        |           | 5 fault_stopping, 6 stopped                                                 |
+|        |           | 5 fault_stopping, 6 stopped, 7 waiting                                      |
 |      7 | uint8     | 0; not looked at                                                            |
 |      8 | uint64    | session: a random number, another one each time a loop starts               |
 |     16 | uint64    | sequence: strictly increasing within a session                              |

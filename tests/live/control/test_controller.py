@@ -1,5 +1,7 @@
 """One tick of the controller: events, outcomes of a run, and that a tick never raises."""
 
+from dataclasses import replace
+
 import pytest
 
 from atlas_cueing.errors import VehicleError
@@ -21,7 +23,7 @@ def test_nothing_moves_before_a_second_of_good_input() -> None:
     rig.source.quiet = True
     rig.press("engage")
     rig.fly(3.0)
-    assert rig.state is State.ENGAGING
+    assert rig.state is State.WAITING
     assert not rig.platform.tracking
     rig.source.quiet = False
     assert 0.99 <= rig.until(lambda: rig.platform.tracking, 2.0) <= 1.03
@@ -45,12 +47,89 @@ def test_a_sources_own_time_goes_on_only_while_running() -> None:
     assert running.count(True) > 50
 
 
-def test_engaging_pins_the_sender() -> None:
+def test_the_sender_is_pinned_when_the_ride_sets_out() -> None:
+    """Before, nobody has been heard perhaps; from home on, it may be another one."""
     rig = Rig(settings=QUICK)
-    assert rig.source.pinned == 0
+    for ride in (1, 2):
+        rig.press("engage")
+        if ride == 1:
+            rig.fly(0.5)
+            assert (rig.source.released, rig.source.pinned) == (1, 0)
+        rig.until(lambda: rig.platform.tracking, 2.0)
+        assert (rig.source.released, rig.source.pinned) == (ride, ride)
+        rig.press("park")
+        rig.tick()
+        rig.until(State.PARKED, 10.0)
+
+
+def changes_of(rig: Rig) -> list[tuple[str, str]]:
+    return [(state, reason) for _, state, reason in rig.tape.statuses]
+
+
+def test_waiting_for_input_tells_why_and_the_reasons_that_follow() -> None:
+    """Not more often than people read, and not again what was told."""
+    rig = Rig(settings=QUICK)
+    rig.source.quiet = True
+    rig.source.remark = "nothing comes"
     rig.press("engage")
-    rig.tick()
-    assert rig.source.pinned == 1
+    assert 1.4 <= rig.until(State.WAITING, 3.0) <= 2.0
+    assert changes_of(rig)[-1] == ("waiting", "nothing comes")
+    begun = len(rig.tape.statuses)
+    for _ in range(300):
+        rig.source.remark = "version 25" if rig.source.remark == "size" else "size"
+        rig.tick()
+    assert 1 <= len(rig.tape.statuses) - begun <= 2
+    rig.source.remark = "size"
+    rig.fly(5.0)
+    told = len(rig.tape.statuses)
+    rig.fly(5.0)
+    assert len(rig.tape.statuses) == told
+    assert {state for state, _ in changes_of(rig)[begun:]} == {"waiting"}
+    rig.source.quiet, rig.source.remark = False, "packets come at 15 Hz"
+    rig.until(State.RUNNING, 9.0)
+    rig.fly(1.0)
+    assert [reason for _, reason in changes_of(rig)].count("packets come at 15 Hz") == 1
+    assert rig.excess() <= ROUNDING
+
+
+@pytest.mark.parametrize("end", ["signal", "duration"])
+@pytest.mark.parametrize("after", [0.5, 4.0])
+def test_a_ride_without_a_good_sample_is_one_that_lost_its_input(end: str, after: float) -> None:
+    rig = Rig(settings=QUICK, attended=False)
+    rig.source.quiet = True
+    rig.source.remark = "nothing comes"
+    rig.controller.engage()
+    rig.fly(after)
+    if end == "signal":
+        rig.wanted.signals = 1
+    else:
+        rig.controller._operator = replace(rig.controller._operator, duration=0.0)
+    rig.until(lambda: rig.controller.over, 10.0)
+    outcome = rig.controller.outcome
+    assert (outcome.result, outcome.reason) == ("input_lost", "no good input: nothing comes")
+
+
+def test_nobody_asked_to_engage_and_nothing_came() -> None:
+    rig = Rig(settings=QUICK)
+    rig.source.quiet = True
+    rig.fly(3.0)
+    rig.wanted.signals = 1
+    rig.until(lambda: rig.controller.over, 1.0)
+    assert rig.controller.outcome.result == "ok"
+
+
+def test_input_that_never_becomes_good_is_told() -> None:
+    """As of a sender so slow that each packet comes after a gap."""
+    rig = Rig(settings=QUICK, attended=False)
+    rig.controller.engage()
+    for _ in range(8):
+        rig.source.jumps = True
+        rig.fly(0.4)
+    assert rig.state is State.WAITING
+    assert changes_of(rig)[-1] == ("waiting", "the vehicle jumped: reset")
+    rig.wanted.signals = 1
+    rig.until(lambda: rig.controller.over, 10.0)
+    assert rig.controller.outcome.result == "input_lost"
 
 
 @pytest.mark.parametrize("button", ["park", "reset"])
@@ -82,32 +161,109 @@ def test_unknown_buttons_do_nothing() -> None:
     assert rig.controller.outcome.faults == 0
 
 
-@pytest.mark.parametrize("attended", [False, True])
-def test_a_source_that_is_broken_for_good_does_not_keep_the_run_from_ending(attended: bool) -> None:
-    rig = rig_in(State.RUNNING, attended=attended)
-    rig.source.raises = RuntimeError("gone")
+class SilentError(BaseException):
+    """Nothing that code for errors expects, and it cannot even be shown."""
+
+    def __str__(self) -> str:
+        raise ValueError("no words")
+
+
+THROWN = {
+    "RuntimeError: gone": RuntimeError("gone"),
+    "SystemExit: 3": SystemExit(3),
+    "KeyboardInterrupt: ": KeyboardInterrupt(),
+    "GeneratorExit: ": GeneratorExit(),
+    "SilentError": SilentError(),
+}
+
+
+STATES = [state for state in State if state not in (State.FAULT_STOPPING, State.STOPPED)]
+
+
+@pytest.mark.parametrize(("state", "reason"), list(zip(STATES, THROWN, strict=False)))
+def test_a_vehicle_that_throws_ends_in_a_certified_stop(state: State, reason: str) -> None:
+    """Whatever it throws; an unattended run ends there."""
+    rig = rig_in(state, attended=False)
+    rig.source.raises = THROWN[reason]
     rig.tick()
     assert rig.state is State.FAULT_STOPPING
-    rig.until(State.STOPPED, 2.0)
-    assert rig.controller.over != attended
-    rig.wanted.signals = 1
-    rig.tick()
-    assert rig.controller.over
-    assert (rig.controller.outcome.result, rig.controller.outcome.reason) == (
-        "fault",
-        "RuntimeError: gone",
-    )
-    assert rig.controller.outcome.faults == 1
+    rig.until(lambda: rig.controller.over, 2.0)
+    outcome = rig.controller.outcome
+    assert (rig.state, outcome.result, outcome.faults) == (State.STOPPED, "fault", 1)
+    assert outcome.reason == reason
     assert rig.excess() <= ROUNDING
 
 
-def test_a_reset_with_a_broken_source_is_a_fault_again() -> None:
-    rig = rig_in(State.STOPPED)
+def test_a_vehicle_that_throws_is_not_asked_again_and_a_reset_leads_home() -> None:
+    rig = rig_in(State.RUNNING, attended=True)
     rig.source.raises = RuntimeError("gone")
-    rig.press("reset")
     rig.tick()
     rig.until(State.STOPPED, 2.0)
-    assert rig.controller.outcome.faults == 2
+    rig.fly(1.0)
+    assert not rig.controller.over
+    rig.press("reset")
+    rig.until(State.PARKED, 10.0)
+    rig.until(lambda: rig.controller.over, 2.0)
+    outcome = rig.controller.outcome
+    assert (outcome.result, outcome.reason, outcome.faults) == ("fault", "RuntimeError: gone", 1)
+    assert rig.excess() <= ROUNDING
+
+
+def begin_to_end(rig: Rig, cause: str) -> None:
+    """What sends an attended run home for good."""
+    if cause == "signal":
+        rig.wanted.signals = 1
+    elif cause == "flight":
+        rig.source.over = True
+    else:
+        rig.controller._operator = replace(rig.controller._operator, duration=0.0)
+    rig.until(State.PARKING, 0.1)
+    rig.fly(0.8)
+
+
+CAUSES = ("signal", "duration", "flight")
+
+
+@pytest.mark.parametrize("cause", CAUSES)
+@pytest.mark.parametrize("then", ["reset", "signal"])
+def test_a_fault_on_the_last_way_home_waits_for_its_reset(cause: str, then: str) -> None:
+    """Or for another request to end."""
+    rig = rig_in(State.RUNNING)
+    begin_to_end(rig, cause)
+    rig.tick(lateness=0.025)
+    rig.until(State.STOPPED, 3.0)
+    rig.fly(3.0)
+    assert not rig.controller.over
+    if then == "signal":
+        rig.wanted.signals += 1
+        rig.tick()
+        assert rig.controller.over
+        assert rig.state is State.STOPPED
+    else:
+        rig.press("reset")
+        rig.until(lambda: rig.controller.over, 10.0)
+        assert rig.state is State.PARKED
+    assert rig.controller.outcome.result == "fault"
+    assert rig.excess() <= ROUNDING
+
+
+@pytest.mark.parametrize("attended", [False, True])
+def test_two_requests_to_end_wait_for_nobody(attended: bool) -> None:
+    rig = rig_in(State.RUNNING, attended=attended)
+    rig.wanted.signals = 2
+    rig.until(lambda: rig.controller.over, 3.0)
+    assert (rig.state, rig.controller.outcome.result) == (State.STOPPED, "stopped")
+
+
+@pytest.mark.parametrize("cause", CAUSES)
+def test_an_operators_hold_outlasts_the_input_but_not_the_run(cause: str) -> None:
+    rig = rig_in(State.HOLDING)
+    rig.source.quiet = True
+    rig.fly(5.0)
+    assert rig.state is State.HOLDING
+    begin_to_end(rig, cause)
+    rig.until(lambda: rig.controller.over, 10.0)
+    assert (rig.state, rig.controller.outcome.result) == (State.PARKED, "ok")
 
 
 def test_the_vehicle_in_the_log_stays_where_it_was_when_a_source_breaks() -> None:

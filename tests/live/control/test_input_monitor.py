@@ -46,7 +46,7 @@ def test_trouble_stops_what_follows_the_cue(state: State, trouble: str, moving: 
         assert events == ([Event.BAD] if moving and state in MOVING else [])
 
 
-@pytest.mark.parametrize("state", State)
+@pytest.mark.parametrize("state", [state for state in State if state is not State.WAITING])
 def test_good_input_says_nothing(state: State) -> None:
     monitor = InputMonitor()
     for k in range(200):
@@ -60,6 +60,21 @@ def test_what_is_borne(age: float, bad: int) -> None:
         InputMonitor().watch(1.0, State.RUNNING, True, replace(GOOD, age=age, bad_in_a_row=bad))
         == []
     )
+
+
+def test_a_source_says_how_long_a_silence_it_bears() -> None:
+    slow = replace(GOOD, age=0.3, patience=0.3)
+    assert InputMonitor().watch(1.0, State.RUNNING, True, slow) == []
+    assert InputMonitor().watch(1.0, State.RUNNING, True, replace(slow, age=0.31)) == [
+        (Event.BAD, "no input for 0.31 s")
+    ]
+
+
+def test_waiting_ends_after_a_second_of_good_input() -> None:
+    monitor = InputMonitor()
+    events = [monitor.watch(0.1 * k, State.WAITING, False, GOOD) for k in range(12)]
+    assert [bool(event) for event in events] == [False] * 10 + [True] * 2
+    assert events[-1] == [(Event.READY, "input is good")]
 
 
 def test_each_trouble_is_told_with_its_reason() -> None:
@@ -110,10 +125,20 @@ def test_an_operators_hold_does_not_end_by_itself() -> None:
     assert ready(monitor) is None
 
 
-@pytest.mark.parametrize("held", [False, True])
-def test_a_hold_waits_a_second_for_input(held: bool) -> None:
+def test_an_operators_hold_does_not_end_with_the_input() -> None:
+    """Nor does the engagement that ends it find the input lost at once."""
+    monitor, gone = InputMonitor(), replace(GOOD, age=100.0)
+    monitor.held = True
+    assert monitor.watch(1.0, State.HOLDING, False, gone) == []
+    monitor.held = False
+    assert monitor.watch(1.0 + LOST, State.HOLDING, False, gone) == []
+    assert [event for event, _ in monitor.watch(1.01 + LOST, State.HOLDING, False, gone)] == [
+        Event.LOST
+    ]
+
+
+def test_a_hold_waits_a_second_for_input() -> None:
     monitor = InputMonitor()
-    monitor.held = held
     assert monitor.watch(1.0, State.HOLDING, False, replace(GOOD, age=LOST)) == []
     assert monitor.watch(1.1, State.HOLDING, True, replace(GOOD, age=LOST + 0.01)) == [
         (Event.LOST, "no input for 1.01 s")

@@ -33,6 +33,8 @@ def expected(state: State, event: Event) -> State:
             return State.ENGAGING if state is State.PARKED else state
         case Event.HOLD:  # of what moves or is about to
             return state if state is State.PARKED else State.HOLDING
+        case Event.ABSENT:
+            return State.WAITING if state is State.ENGAGING else state
         case Event.PARK:
             return state if state is State.PARKED else State.PARKING
         case Event.BAD:
@@ -42,7 +44,7 @@ def expected(state: State, event: Event) -> State:
                 State.PARKING if state in (State.ENGAGING, State.RUNNING, State.HOLDING) else state
             )
         case Event.READY:
-            return State.ENGAGING if state is State.HOLDING else state
+            return State.ENGAGING if state in (State.HOLDING, State.WAITING) else state
         case Event.ARRIVED:
             return {State.ENGAGING: State.RUNNING, State.PARKING: State.PARKED}.get(state, state)
         case _:  # a reset is for faults
@@ -103,4 +105,5 @@ def test_buttons_that_do_something() -> None:
         "parking": {"hold"},
         "fault_stopping": set(),
         "stopped": {"reset"},
+        "waiting": {"hold", "park"},
     }

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from vehicles.packets import packet
 
-from atlas_cueing.live.input.flightgear_source import MAX_PACKETS
+from atlas_cueing.live.input.packet_source import MAX_PACKETS
 from atlas_cueing.vehicles import Bounds
 
 from ..flightgear_rides import RATE, SIMULATOR, STRANGER, Simulator, every, packet_of, states

@@ -8,10 +8,9 @@ import pytest
 from vehicles.packets import packet
 
 from atlas_cueing.live.control.sign_continuity import SignContinuity
-from atlas_cueing.live.input.flightgear_source import LONGEST_GAP
-from atlas_cueing.live.input.source import SourceReading
 from atlas_cueing.rotation import IDENTITY, geodesic
 from atlas_cueing.signals import VehicleState
+from atlas_cueing.vehicles.flightgear import DEFAULT_HOLD_AFTER
 
 from ..flightgear_rides import RATE, Simulator, clean, every, packet_of, states
 from ..motions import angles, forces, rates, rms
@@ -20,7 +19,8 @@ from ..motions import angles, forces, rates, rms
 def test_nothing_before_the_first_packet() -> None:
     simulator = Simulator()
     for reading in simulator.until(0.5):
-        assert reading == SourceReading(None, inf, 0, 0, False, False, "")
+        assert (reading.vehicle, reading.age, reading.dropped) == (None, inf, 0)
+        assert reading.remark == "nothing comes to a port"
 
 
 @pytest.mark.parametrize("rate_hz", [30.0, 60.0, 120.0])
@@ -115,13 +115,13 @@ def test_a_simulator_that_stands_still_is_no_fault() -> None:
 def test_after_a_gap_it_begins_anew() -> None:
     simulator = Simulator()
     simulator.send(every(0.0, 1.0))
-    simulator.send(every(1.0 + 2.0 * LONGEST_GAP, 2.0))
+    simulator.send(every(1.0 + 1.1 * DEFAULT_HOLD_AFTER, 2.0))
     got = simulator.until(2.0)
     jumped = [reading for reading in got if reading.jumped]
     assert len(jumped) == 1
     assert jumped[0].reason.startswith("nothing came for")
     assert sum(reading.dropped for reading in got) == 0
-    after = [s for s in states(got) if s.time > 1.3]
+    after = [s for s in states(got) if s.time > 1.4]
     assert float(np.max(angles(after, [simulator.motion.at(s.time) for s in after]))) < 0.01
 
 

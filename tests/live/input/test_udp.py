@@ -102,3 +102,27 @@ def test_a_port_that_is_taken_is_bad_input(receiver: UdpReceiver) -> None:
         InputError, match=f"UDP {host}:{port}: cannot listen there: Address already in use"
     ):
         UdpReceiver(host, port)
+
+
+def test_after_a_release_all_are_heard_again_at_the_same_port() -> None:
+    receiver = UdpReceiver("127.0.0.1", 0)
+    place = receiver.address
+    with (
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as one,
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other,
+    ):
+        for each in (one, other):
+            each.bind(("127.0.0.1", 0))
+        receiver.pin(one.getsockname())
+        other.sendto(b"stranger", place)
+        one.sendto(b"pinned", place)
+        first = receiver.receive()
+        assert first is not None
+        assert first.content == b"pinned"
+        receiver.release()
+        assert receiver.address == place
+        other.sendto(b"welcome", place)
+        second = receiver.receive()
+        assert second is not None
+        assert (second.content, second.sender) == (b"welcome", other.getsockname())
+    receiver.close()

@@ -120,7 +120,7 @@ class TestThePacket:
                 encode(1, 2, 0.0, 3, 0, REST)[:-1] + b"x",
                 "packet 2 has a wrong check: it is damaged, or its sender has another key",
             ),
-            (encode(1, 2, 0.0, 3, 7, REST), "packet 2 has state 7, allowed: 0 <= state <= 6"),
+            (encode(1, 2, 0.0, 3, 8, REST), "packet 2 has state 8, allowed: 0 <= state <= 7"),
             (
                 encode(1, 2, nan, 3, 0, REST),
                 "packet 2 has nan as number 0, allowed: finite numbers",
