@@ -202,7 +202,7 @@ def test_a_vehicle_that_throws_is_not_asked_again_and_a_reset_leads_home() -> No
     rig.fly(1.0)
     assert not rig.controller.over
     rig.press("reset")
-    rig.until(State.PARKED, 10.0)
+    rig.until(State.PARKED, 60.0)
     rig.until(lambda: rig.controller.over, 2.0)
     outcome = rig.controller.outcome
     assert (outcome.result, outcome.reason, outcome.faults) == ("fault", "RuntimeError: gone", 1)
