@@ -1,7 +1,8 @@
 """Sources of vehicle states; the only place that knows feet, pounds and knots.
 
 Each source is a `Flight`, which knows what it flies and builds its `signals.Vehicle`: a script or
-an aircraft in JSBSim, test signals, and the packets of a simulator elsewhere. `RecordedVehicle`
+an aircraft in JSBSim, test signals, a rigid body, a rider on a track, and the packets of a simulator
+elsewhere. `RecordedVehicle`
 plays recorded states back. `LimitedDuration` ends any of them after the time that is asked for.
 """
 
@@ -15,6 +16,7 @@ from .jsbsim.library import own_aircraft, own_scripts, suggestion
 from .jsbsim.loading import input_objections
 from .limited_duration import LimitedDuration
 from .recorded_vehicle import RecordedVehicle
+from .rigid_body import RigidBodyFlight, RigidBodyVehicle
 from .signal_vehicle import Signal, SignalFlight, SignalVehicle
 
 __all__ = [
@@ -27,6 +29,8 @@ __all__ = [
     "JsbsimVehicle",
     "LimitedDuration",
     "RecordedVehicle",
+    "RigidBodyFlight",
+    "RigidBodyVehicle",
     "ScriptFlight",
     "Signal",
     "SignalFlight",
