@@ -13,10 +13,16 @@ from .rigid_body_table import RigidBodyTable
 from .signal_table import SignalFlightTable
 from .source_table import SourceTable
 from .tables import refuse
+from .track_table import TrackTable
 
 # The one place where sources are named.
 AnySource: TypeAlias = (
-    JsbsimTable | SignalFlightTable | FlightgearTable | RecordedFlightTable | RigidBodyTable
+    JsbsimTable
+    | SignalFlightTable
+    | FlightgearTable
+    | RecordedFlightTable
+    | RigidBodyTable
+    | TrackTable
 )
 
 SOURCES: Final[dict[str, type[SourceTable]]] = {
