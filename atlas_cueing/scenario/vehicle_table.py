@@ -9,12 +9,21 @@ from .flightgear_table import FlightgearTable
 from .jsbsim_table import JsbsimTable
 from .mistakes import Key
 from .recording_table import RecordedFlightTable
+from .rigid_body_table import RigidBodyTable
 from .signal_table import SignalFlightTable
 from .source_table import SourceTable
 from .tables import refuse
+from .track_table import TrackTable
 
 # The one place where sources are named.
-AnySource: TypeAlias = JsbsimTable | SignalFlightTable | FlightgearTable | RecordedFlightTable
+AnySource: TypeAlias = (
+    JsbsimTable
+    | SignalFlightTable
+    | FlightgearTable
+    | RecordedFlightTable
+    | RigidBodyTable
+    | TrackTable
+)
 
 SOURCES: Final[dict[str, type[SourceTable]]] = {
     table.model_fields["source"].default: table for table in get_args(AnySource)

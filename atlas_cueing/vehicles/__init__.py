@@ -1,8 +1,9 @@
 """Sources of vehicle states; the only place that knows feet, pounds and knots.
 
 Each source is a `Flight`, which knows what it flies and builds its `signals.Vehicle`: a script or
-an aircraft in JSBSim, test signals, and the packets of a simulator elsewhere. `RecordedVehicle`
-plays recorded states back. `LimitedDuration` ends any of them after the time that is asked for.
+an aircraft in JSBSim, test signals, a free rigid body, a rider on a track, and the packets of a
+simulator elsewhere. `RecordedVehicle` plays recorded states back. `LimitedDuration` ends any of
+them after the time that is asked for.
 """
 
 from .bounds import Bounds, PacketError
@@ -15,12 +16,16 @@ from .jsbsim.library import own_aircraft, own_scripts, suggestion
 from .jsbsim.loading import input_objections
 from .limited_duration import LimitedDuration
 from .recorded_vehicle import RecordedVehicle
+from .rigid_body import RigidBodyFlight, RigidBodyVehicle
 from .signal_shapes import Signal
 from .signal_vehicle import SignalFlight, SignalVehicle
+from .track import TrackFlight, TrackVehicle
+from .track_ride import Car
 
 __all__ = [
     "AircraftFlight",
     "Bounds",
+    "Car",
     "Flight",
     "FlightgearFlight",
     "FlownAhead",
@@ -29,11 +34,15 @@ __all__ = [
     "LimitedDuration",
     "PacketError",
     "RecordedVehicle",
+    "RigidBodyFlight",
+    "RigidBodyVehicle",
     "ScriptFlight",
     "Signal",
     "SignalFlight",
     "SignalVehicle",
     "TimedInput",
+    "TrackFlight",
+    "TrackVehicle",
     "input_objections",
     "own_aircraft",
     "own_scripts",

@@ -14,7 +14,7 @@ from atlas_cueing.scenario import load_scenario
 from atlas_cueing.scenario.source_table import SourceTable
 from atlas_cueing.scenario.vehicle_table import DEFAULT_SOURCE, SOURCES
 
-from .test_vehicle_table import FLIGHTGEAR, RECORDING
+from .test_vehicle_table import FLIGHTGEAR, RECORDING, RIGID_BODY, TRACK
 from .texts import AIRCRAFT, SCRIPT, SIGNALS
 
 EXAMPLES = {
@@ -22,6 +22,8 @@ EXAMPLES = {
     "signal": (SIGNALS,),
     "flightgear": (FLIGHTGEAR,),
     "recording": (RECORDING,),
+    "rigid_body": (RIGID_BODY,),
+    "track": (TRACK,),
 }
 
 

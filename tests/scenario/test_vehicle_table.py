@@ -8,11 +8,14 @@ from atlas_cueing.run import run_scenario
 from atlas_cueing.scenario import RecordedFlight, load_scenario, load_variants
 from atlas_cueing.vehicles import (
     AircraftFlight,
+    Car,
     Flight,
     FlightgearFlight,
     InitialConditions,
+    RigidBodyFlight,
     ScriptFlight,
     TimedInput,
+    TrackFlight,
     own_scripts,
 )
 from atlas_cueing.vehicles.jsbsim.user_models import within
@@ -221,7 +224,10 @@ def test_near_names_are_given(refused: Refused) -> None:
         ),
         (
             SCRIPT.replace("[vehicle]", '[vehicle]\nsource = "xplane"'),
-            ["vehicle.source = 'xplane': allowed: 'jsbsim', 'signal', 'flightgear', 'recording'"],
+            [
+                "vehicle.source = 'xplane': allowed: 'jsbsim', 'signal', 'flightgear', 'recording',"
+                " 'rigid_body', 'track'"
+            ],
         ),
         (
             AIRCRAFT.replace("[[vehicle.input]]", "[vehicle.input]", 1).split("[[")[0]
@@ -276,6 +282,25 @@ FLIGHTGEAR = """
 name = "elsewhere"
 [vehicle]
 source = "flightgear"
+[platform]
+preset = "atlas-2.9m"
+"""
+RIGID_BODY = """
+name = "tumble"
+duration_s = 2.0
+[vehicle]
+source = "rigid_body"
+inertia_kg_m2 = [3.0, 2.0, 1.2]
+initial_rate_deg_s = [0.3, 40.0, 0.5]
+[platform]
+preset = "atlas-2.9m"
+"""
+TRACK = """
+name = "ride"
+[vehicle]
+source = "track"
+points_m = [[0, 0, 0], [5, 0, 0], [10, 0, 1], [15, 0, 2], [20, 0, 1], [25, 0, 0], [30, 0, 0]]
+speed_m_s = 12.0
 [platform]
 preset = "atlas-2.9m"
 """
@@ -388,3 +413,69 @@ def test_keys_of_sources_that_fly_live(refused: Refused, text: str, mistakes: li
     assert len(told) == len(mistakes)
     for line, mistake in zip(told, mistakes, strict=True):
         assert line.startswith(f"bad.toml: vehicle.{mistake}")
+
+
+def test_a_body_and_a_track_in_si(tmp_path: Path) -> None:
+    (tmp_path / "b.toml").write_text(
+        RIGID_BODY.replace(
+            "[platform]", "seat_m = [1, 0, 0]\nattitude_deg = [0, 0, 90]\n[platform]"
+        )
+    )
+    body = load_scenario(tmp_path / "b.toml", ["vehicle.free_fall=false"]).flight
+    assert isinstance(body, RigidBodyFlight)
+    assert (body.seat, body.free_fall, body.rate_hz) == ((1.0, 0.0, 0.0), False, 120.0)
+    assert body.w_B[1] == pytest.approx(0.6981317)
+    assert body.q_NB == pytest.approx((0.5**0.5, 0.0, 0.0, 0.5**0.5))
+    (tmp_path / "t.toml").write_text(
+        TRACK.replace("speed_m_s", "bank_deg = [0, 0, 0, 0, 0, 0, 90]\nspeed_m_s")
+    )
+    track = load_scenario(tmp_path / "t.toml", ["vehicle.friction=0.01"]).flight
+    assert isinstance(track, TrackFlight)
+    assert track.car == Car(12.0, friction=0.01)
+    assert track.bank is not None
+    assert track.bank[-1] == pytest.approx(1.5707963)
+    assert track.points[2] == (10.0, 0.0, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("text", "mistakes"),
+    [
+        (
+            RIGID_BODY.replace("[3.0, 2.0, 1.2]", "[3.0, 1.0, 1.2]"),
+            ["vehicle.inertia_kg_m2: the largest moment is 3 kg m^2, allowed: at most 2.2"],
+        ),
+        (
+            RIGID_BODY.replace("[3.0, 2.0, 1.2]", "[3.0, 0, 1.2]"),
+            ["vehicle.inertia_kg_m2.1 = 0: allowed: a number, 0 < value <= 1e+12"],
+        ),
+        (
+            RIGID_BODY.replace("duration_s = 2.0", "").replace(
+                "inertia_kg_m2 = [3.0, 2.0, 1.2]", ""
+            ),
+            ["vehicle.inertia_kg_m2: missing", "duration_s: missing, a free body tumbles for ever"],
+        ),
+        (TRACK.replace("speed_m_s = 12.0", ""), ["vehicle.speed_m_s: missing, or lift_speed_m_s"]),
+        (TRACK.replace("speed_m_s", "laps = 2\nspeed_m_s"), ["vehicle.laps: only with closed"]),
+        (TRACK.replace("[5, 0, 0]", "[5, 0]"), ["vehicle.points_m.1 = [5, 0]: allowed: a list of"]),
+        (
+            TRACK.replace("[5, 0, 0]", "[5, 0, nan]"),
+            ["vehicle.points_m.1.2 = nan: allowed: a number"],
+        ),
+        (
+            TRACK.replace("speed_m_s", "seat_m = [0, 0, 0]\nspeed_m_s"),
+            ["vehicle.seat_m: not with source = 'track'"],
+        ),
+    ],
+)
+def test_keys_of_bodies_and_tracks(refused: Refused, text: str, mistakes: list[str]) -> None:
+    told = refused(text)
+    assert len(told) == len(mistakes)
+    for line, mistake in zip(told, mistakes, strict=True):
+        assert line.startswith(f"bad.toml: {mistake}")
+
+
+def test_what_cannot_be_ridden_is_told_before_it_flies(tmp_path: Path) -> None:
+    (tmp_path / "t.toml").write_text(TRACK.replace("[5, 0, 0]", "[0, 0, 0]"))
+    with pytest.raises(InputError, match="points 0 and 1 are the same"):
+        run_scenario(load_scenario(tmp_path / "t.toml"), tmp_path / "log.mcap")
+    assert not (tmp_path / "log.mcap").exists()
