@@ -21,6 +21,8 @@ Examples:
 
   atlas-cueing live scenarios/live/flightgear.toml --setpoints 127.0.0.1:5600 --foxglove 8765
 
+  atlas-cueing live scenarios/live/packets.toml --listen 192.168.1.2 --set vehicle.key_file=key
+
 Ctrl-C, SIGTERM or a terminal that hangs up parks the platform and finishes the log; a second one
 stops it at once. This is not a safety device: emergency stop and the monitoring of speed and
 position belong to hardware.
@@ -83,6 +85,14 @@ Foxglove: TypeAlias = Annotated[
         max=65535,
     ),
 ]
+Listen: TypeAlias = Annotated[
+    str | None,
+    typer.Option(
+        "--listen",
+        help="Take packets of other machines, too, that come to this address; 0.0.0.0 for all.",
+        metavar="ADDRESS",
+    ),
+]
 Priority: TypeAlias = Annotated[
     bool,
     typer.Option(
@@ -104,6 +114,7 @@ def live_command(
     key: KeyFile = None,
     lead: Lead = 8.0,
     foxglove: Foxglove = None,
+    listen: Listen = None,
     priority: Priority = False,
     settings: Settings = None,
     trust_models: TrustModels = False,
@@ -140,6 +151,7 @@ def live_command(
         priority=priority,
         announce=not as_json,
         lead=1e-3 * lead,
+        listen=listen,
     )
     session = LiveSession(loaded, log, options)
     with StopRequest(interrupt=False) as stop:

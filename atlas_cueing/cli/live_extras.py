@@ -15,7 +15,6 @@ if TYPE_CHECKING:
 
 _HIGHEST_PORT = 65535
 _EXAMPLE = "127.0.0.1:5600"  # of a receiver on this machine
-_LARGEST_KEY = 4096  # bytes of its file; keys have 32 at most
 
 
 @contextmanager
@@ -63,10 +62,12 @@ def drives(setpoints: str | None, key_file: Path | None) -> Iterator[Sequence["D
             raise InputError("--key is for --setpoints HOST:PORT, which is missing")
         yield ()
         return
+    from ..live.input.shared_key import read_key
     from ..live.output import SetPointSender
 
     host, port = _address(setpoints)
-    with closing(SetPointSender(host, port, key=_key(key_file) if key_file else b"")) as sender:
+    key = read_key(key_file, f"--key {key_file}") if key_file else b""
+    with closing(SetPointSender(host, port, key=key)) as sender:
         yield (sender,)
     if sender.unsent:
         say(f"{sender.unsent} set points could not be sent to {setpoints}")
@@ -90,16 +91,3 @@ def _is_numeric(host: str) -> bool:
     except AddressValueError:
         return False
     return True
-
-
-def _key(file: Path) -> bytes:
-    try:
-        with file.open("rb") as opened:  # perhaps the pipe of a password manager
-            key = opened.read(_LARGEST_KEY + 1)
-    except OSError as error:
-        raise InputError(f"--key {file}: {error.strerror}") from error
-    if len(key) > _LARGEST_KEY:
-        raise InputError(f"--key {file}: too large, allowed: size <= {_LARGEST_KEY} bytes")
-    if not key.strip():
-        raise InputError(f"--key {file}: holds no key")
-    return key.strip()

@@ -44,6 +44,7 @@ class LiveOptions:
     engage: engage at the start.
     priority: ask the system for SCHED_FIFO, locked memory and a core of its own.
     announce: report changes of state on stderr.
+    listen: address of this machine that packets come to; None for the scenario's, a loopback.
     """
 
     rate: float = DEFAULT_RATE
@@ -53,6 +54,7 @@ class LiveOptions:
     priority: bool = False
     announce: bool = False
     lead: float = LEAD
+    listen: str | None = None
 
 
 class LiveSession:
@@ -84,7 +86,7 @@ class LiveSession:
         self._options = options
         self._dt = round(1e9 / options.rate) / 1e9
         self._pipeline = build_pipeline(scenario, self._dt)
-        self._source: Source = open_source(scenario)
+        self._source: Source = open_source(scenario, options.listen)
         self.ring: Ring = live_ring(RING_SECONDS, options.rate)
         self.buttons = OperatorButtons()
         self._clock = MonotonicClock()

@@ -8,13 +8,16 @@ from pydantic_core import InitErrorDetails
 from .flightgear_table import FlightgearTable
 from .jsbsim_table import JsbsimTable
 from .mistakes import Key
+from .packet_table import PacketTable
 from .recording_table import RecordedFlightTable
 from .signal_table import SignalFlightTable
 from .source_table import SourceTable
 from .tables import refuse
 
 # The one place where sources are named.
-AnySource: TypeAlias = JsbsimTable | SignalFlightTable | FlightgearTable | RecordedFlightTable
+AnySource: TypeAlias = (
+    JsbsimTable | SignalFlightTable | FlightgearTable | PacketTable | RecordedFlightTable
+)
 
 SOURCES: Final[dict[str, type[SourceTable]]] = {
     table.model_fields["source"].default: table for table in get_args(AnySource)

@@ -14,6 +14,7 @@ from .jsbsim.jsbsim_vehicle import JsbsimVehicle
 from .jsbsim.library import own_aircraft, own_scripts, suggestion
 from .jsbsim.loading import input_objections
 from .limited_duration import LimitedDuration
+from .packets import PacketFlight
 from .recorded_vehicle import RecordedVehicle
 from .signal_vehicle import Signal, SignalFlight, SignalVehicle
 
@@ -27,6 +28,7 @@ __all__ = [
     "JsbsimVehicle",
     "LimitedDuration",
     "PacketError",
+    "PacketFlight",
     "RecordedVehicle",
     "ScriptFlight",
     "Signal",
