@@ -125,7 +125,8 @@ def live_command(
 
     It engages by itself after a second of good input, blends to the cue, and parks when the flight
     is over. With --view it can be held, parked and engaged by buttons, and a fault waits for a
-    reset; without, a fault ends the run.
+    reset; without, a fault ends the run. Commands come on stdin, too, and by `atlas-cueing
+    operate`: engage, hold, park, reset, stop, state.
 
     Exit status 0: flown and parked, every limit kept. 1: a fault, or the vehicle or its input
     failed; the log is complete. 2: bad input, nothing was written.
@@ -149,14 +150,13 @@ def live_command(
         attended=view,
         engage=not wait,
         priority=priority,
-        announce=not as_json,
         lead=1e-3 * lead,
         listen=listen,
     )
     session = LiveSession(loaded, log, options)
     with StopRequest(interrupt=False) as stop:
         with (
-            followers(session, loaded, port if view else None, foxglove),
+            followers(session, loaded, port if view else None, foxglove, tell=not as_json),
             drives(setpoints, key) as sender,
         ):
             result = session.run(sender, lambda: stop.count)

@@ -1,5 +1,6 @@
 """The views and the receiver of set points of a live run, by the command's options."""
 
+import os
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager
 from ipaddress import AddressValueError, IPv4Address
@@ -19,7 +20,12 @@ _EXAMPLE = "127.0.0.1:5600"  # of a receiver on this machine
 
 @contextmanager
 def followers(
-    session: "LiveSession", scenario: "Scenario", view_port: int | None, foxglove_port: int | None
+    session: "LiveSession",
+    scenario: "Scenario",
+    view_port: int | None,
+    foxglove_port: int | None,
+    *,
+    tell: bool,
 ) -> Iterator[None]:
     """Run the processes that follow the ring; each reports its address on stderr.
 
@@ -28,8 +34,10 @@ def followers(
         scenario: of the session.
         view_port: of the 3D view; None for no view.
         foxglove_port: of the server for Foxglove; None for no server.
+        tell: report every change of state on stderr.
     """
     with ExitStack() as stack:
+        _open_desk(session, stack, tell)
         if view_port is not None:
             from ..live.control import allowed_buttons
             from ..viewer import ViewerProcess
@@ -39,6 +47,9 @@ def followers(
                 session.ring, scenario.platform, press, allowed, port=view_port, title=scenario.name
             )
             stack.enter_context(viewer)
+            session.helpers.add(
+                lambda: viewer.alive, "the view has died: nobody can press its buttons", parks=True
+            )
             say(f"view: {viewer.url}")
         if foxglove_port is not None:
             from ..live.output import FoxgloveProcess
@@ -47,8 +58,26 @@ def followers(
                 session.ring, foxglove_port, scenario.platform.head_S, session.started_ns
             )
             stack.callback(server.close)
+            session.helpers.add(lambda: server.alive, "the server for Foxglove has died")
             say(f"foxglove: {server.url}")
         yield
+
+
+def _open_desk(session: "LiveSession", stack: ExitStack, tell: bool) -> None:
+    """Open the operator's desk; without a place for its socket it has stdin only."""
+    from ..live.output import OperatorDesk
+    from ..telemetry.command_socket import open_socket
+
+    listener = None
+    try:
+        place, listener = open_socket(os.getpid())
+        stack.callback(lambda: place.unlink(missing_ok=True))
+        say(f"operate: atlas-cueing operate {os.getpid()} engage|hold|park|reset|stop, or type it")
+    except InputError as error:
+        say(str(error))
+    desk = OperatorDesk(session.ring, session.buttons.press, listener, announce=tell)
+    stack.callback(desk.close)
+    session.helpers.add(lambda: desk.alive, "the operator's desk has died: no commands but signals")
 
 
 @contextmanager

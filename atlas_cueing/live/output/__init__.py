@@ -4,6 +4,7 @@
 """
 
 from .foxglove_server import FoxgloveProcess
+from .operator_desk import OperatorDesk
 from .receiver import SetPointReceiver
 from .recorder_process import RecorderProcess
 from .ring_recorder import Recorded, RingRecorder
@@ -11,6 +12,7 @@ from .setpoint import SetPoint, SetPointSender
 
 __all__ = [
     "FoxgloveProcess",
+    "OperatorDesk",
     "Recorded",
     "RecorderProcess",
     "RingRecorder",
