@@ -12,7 +12,7 @@
     |-- PlanningError           the trajectory generator refused a state; the certified stop follows
     |-- LogError                a log is damaged or not one of ours (status 1)
     |-- PacketError             a simulator's packet is damaged or not believable; it is dropped
-    |                           (in `vehicles.flightgear`)
+    |                           (in `vehicles.bounds`)
     `-- SetPointError           a set-point packet is damaged, forged or not one of ours; it is not
                                 followed
 

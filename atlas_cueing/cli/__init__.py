@@ -27,6 +27,8 @@ from .import_file import EPILOG as IMPORT_EPILOG
 from .import_file import import_command
 from .live import EPILOG as LIVE_EPILOG
 from .live import live_command
+from .operate import EPILOG as OPERATE_EPILOG
+from .operate import operate_command
 from .platform import EPILOG as PLATFORM_EPILOG
 from .platform import platform_command
 from .recover import EPILOG as RECOVER_EPILOG
@@ -59,6 +61,7 @@ logging.getLogger("atlas_cueing").addHandler(logging.NullHandler())
 app.command("run", epilog=RUN_EPILOG)(run_command)
 app.command("batch", epilog=BATCH_EPILOG)(batch_command)
 app.command("live", epilog=LIVE_EPILOG)(live_command)
+app.command("operate", epilog=OPERATE_EPILOG)(operate_command)
 app.command("review", epilog=REVIEW_EPILOG)(review_command)
 app.command("compare", epilog=COMPARE_EPILOG)(compare_command)
 app.command("recue", epilog=RECUE_EPILOG)(recue_command)

@@ -21,6 +21,8 @@ Examples:
 
   atlas-cueing live scenarios/live/flightgear.toml --setpoints 127.0.0.1:5600 --foxglove 8765
 
+  atlas-cueing live scenarios/live/packets.toml --listen 192.168.1.2 --set vehicle.key_file=key
+
 Ctrl-C, SIGTERM or a terminal that hangs up parks the platform and finishes the log; a second one
 stops it at once. This is not a safety device: emergency stop and the monitoring of speed and
 position belong to hardware.
@@ -98,6 +100,14 @@ Foxglove: TypeAlias = Annotated[
         max=65535,
     ),
 ]
+Listen: TypeAlias = Annotated[
+    str | None,
+    typer.Option(
+        "--listen",
+        help="Take packets of other machines, too, that come to this address; 0.0.0.0 for all.",
+        metavar="ADDRESS",
+    ),
+]
 Priority: TypeAlias = Annotated[
     bool,
     typer.Option(
@@ -121,6 +131,7 @@ def live_command(
     no_drive_status: DriveStatus = False,
     drive_timeout: DriveTimeout = 50.0,
     foxglove: Foxglove = None,
+    listen: Listen = None,
     priority: Priority = False,
     settings: Settings = None,
     trust_models: TrustModels = False,
@@ -131,7 +142,8 @@ def live_command(
 
     It engages by itself after a second of good input, blends to the cue, and parks when the flight
     is over. With --view it can be held, parked and engaged by buttons, and a fault waits for a
-    reset; without, a fault ends the run.
+    reset; without, a fault ends the run. Commands come on stdin, too, and by `atlas-cueing
+    operate`: engage, hold, park, reset, stop, state.
 
     Exit status 0: flown and parked, every limit kept. 1: a fault, or the vehicle or its input
     failed; the log is complete. 2: bad input, nothing was written.
@@ -155,14 +167,14 @@ def live_command(
         attended=view,
         engage=not wait,
         priority=priority,
-        announce=not as_json,
         lead=1e-3 * lead,
         drive_timeout=1e-3 * drive_timeout,
+        listen=listen,
     )
     session = LiveSession(loaded, log, options)
     with StopRequest(interrupt=False) as stop:
         with (
-            followers(session, loaded, port if view else None, foxglove),
+            followers(session, loaded, port if view else None, foxglove, tell=not as_json),
             drives(setpoints, key, loaded, listen=not no_drive_status) as (senders, feedback),
         ):
             result = session.run(senders, lambda: stop.count, feedback)

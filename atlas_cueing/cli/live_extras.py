@@ -1,5 +1,6 @@
 """The views and the receiver of set points of a live run, by the command's options."""
 
+import os
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager
 from ipaddress import AddressValueError, IPv4Address
@@ -16,12 +17,16 @@ if TYPE_CHECKING:
 
 _HIGHEST_PORT = 65535
 _EXAMPLE = "127.0.0.1:5600"  # of a receiver on this machine
-_LARGEST_KEY = 4096  # bytes of its file; keys have 32 at most
 
 
 @contextmanager
 def followers(
-    session: "LiveSession", scenario: "Scenario", view_port: int | None, foxglove_port: int | None
+    session: "LiveSession",
+    scenario: "Scenario",
+    view_port: int | None,
+    foxglove_port: int | None,
+    *,
+    tell: bool,
 ) -> Iterator[None]:
     """Run the processes that follow the ring; each reports its address on stderr.
 
@@ -30,8 +35,10 @@ def followers(
         scenario: of the session.
         view_port: of the 3D view; None for no view.
         foxglove_port: of the server for Foxglove; None for no server.
+        tell: report every change of state on stderr.
     """
     with ExitStack() as stack:
+        _open_desk(session, stack, tell)
         if view_port is not None:
             from ..live.control import allowed_buttons
             from ..viewer import ViewerProcess
@@ -41,6 +48,9 @@ def followers(
                 session.ring, scenario.platform, press, allowed, port=view_port, title=scenario.name
             )
             stack.enter_context(viewer)
+            session.helpers.add(
+                lambda: viewer.alive, "the view has died: nobody can press its buttons", parks=True
+            )
             say(f"view: {viewer.url}")
         if foxglove_port is not None:
             from ..live.output import FoxgloveProcess
@@ -49,8 +59,26 @@ def followers(
                 session.ring, foxglove_port, scenario.platform.head_S, session.started_ns
             )
             stack.callback(server.close)
+            session.helpers.add(lambda: server.alive, "the server for Foxglove has died")
             say(f"foxglove: {server.url}")
         yield
+
+
+def _open_desk(session: "LiveSession", stack: ExitStack, tell: bool) -> None:
+    """Open the operator's desk; without a place for its socket it has stdin only."""
+    from ..live.output import OperatorDesk
+    from ..telemetry.command_socket import open_socket
+
+    listener = None
+    try:
+        place, listener = open_socket(os.getpid())
+        stack.callback(lambda: place.unlink(missing_ok=True))
+        say(f"operate: atlas-cueing operate {os.getpid()} engage|hold|park|reset|stop, or type it")
+    except InputError as error:
+        say(str(error))
+    desk = OperatorDesk(session.ring, session.buttons.press, listener, announce=tell)
+    stack.callback(desk.close)
+    session.helpers.add(lambda: desk.alive, "the operator's desk has died: no commands but signals")
 
 
 @contextmanager
@@ -70,10 +98,11 @@ def drives(
             raise InputError("--no-drive-status is for --setpoints HOST:PORT, which is missing")
         yield (), None
         return
+    from ..live.input.shared_key import read_key
     from ..live.output import SetPointSender, limits_hash
 
     host, port = _address(setpoints)
-    key = _key(key_file) if key_file else b""
+    key = read_key(key_file, f"--key {key_file}") if key_file else b""
     platform = scenario.platform
     limits = limits_hash(platform.wheel_limit_values(), platform.stage_limit_values())
     with closing(SetPointSender(host, port, key, limits if listen else b"")) as sender:
@@ -100,16 +129,3 @@ def _is_numeric(host: str) -> bool:
     except AddressValueError:
         return False
     return True
-
-
-def _key(file: Path) -> bytes:
-    try:
-        with file.open("rb") as opened:  # perhaps the pipe of a password manager
-            key = opened.read(_LARGEST_KEY + 1)
-    except OSError as error:
-        raise InputError(f"--key {file}: {error.strerror}") from error
-    if len(key) > _LARGEST_KEY:
-        raise InputError(f"--key {file}: too large, allowed: size <= {_LARGEST_KEY} bytes")
-    if not key.strip():
-        raise InputError(f"--key {file}: holds no key")
-    return key.strip()

@@ -11,7 +11,7 @@ from ..errors import InputError
 from ..recording import McapRecorder
 from ..run import Evaluation, LiveFigures, RunResult, build_pipeline, evaluate_log, open_recorder
 from ..scenario import Scenario
-from ..telemetry import LiveWriter, OperatorButtons, Ring, live_ring
+from ..telemetry import HelperWatch, LiveWriter, OperatorButtons, Ring, live_ring
 from .clock import MonotonicClock
 from .control import (
     DriveFeedback,
@@ -53,8 +53,9 @@ class LiveOptions:
     attended: the operator's buttons can be pressed, and the run waits for them.
     engage: engage at the start.
     priority: ask the system for SCHED_FIFO, locked memory and a core of its own.
-    announce: report changes of state on stderr.
+    announce: let the recorder report changes of state on stderr; the command's desk does it itself.
     drive_timeout: s that the drives may be silent while the platform moves, if they speak.
+    listen: address of this machine that packets come to; None for the scenario's, a loopback.
     """
 
     rate: float = DEFAULT_RATE
@@ -65,6 +66,7 @@ class LiveOptions:
     announce: bool = False
     lead: float = LEAD
     drive_timeout: float = TIMEOUT
+    listen: str | None = None
 
 
 class LiveSession:
@@ -74,6 +76,7 @@ class LiveSession:
 
     ring: every tick and change of state of the run.
     buttons: the operator's.
+    helpers: the processes that follow the run; the recorder is one of them.
     started_ns: start of the run, ns since 1970.
     """
 
@@ -102,9 +105,10 @@ class LiveSession:
         self._options = options
         self._dt = round(1e9 / options.rate) / 1e9
         self._pipeline = build_pipeline(scenario, self._dt)
-        self._source: Source = open_source(scenario)
+        self._source: Source = open_source(scenario, options.listen)
         self.ring: Ring = live_ring(RING_SECONDS, options.rate)
         self.buttons = OperatorButtons()
+        self.helpers = HelperWatch()
         self._clock = MonotonicClock()
         # the same moment by the loop's clock and by the system's
         self._origin, self.started_ns = self._clock.now(), time.time_ns()
@@ -126,6 +130,9 @@ class LiveSession:
         with closing(self._source):
             recorder = RecorderProcess(
                 self.ring, self._recorder(spoken), announce=self._options.announce
+            )
+            self.helpers.add(
+                lambda: recorder.alive, "the recorder has died: nothing more is recorded"
             )
             monitor = self._monitor(feedback)
             controller = self._controller(stop_requests, monitor)
@@ -167,7 +174,8 @@ class LiveSession:
         )
         guard = Guard(self._dt, platform.wheel_limit_values(), limits)
         operator = OperatorInputs(
-            self.buttons.edges, stop_requests, options.duration, options.attended
+            *(self.buttons.edges, stop_requests, options.duration, options.attended),
+            losses=self.helpers.losses,
         )
         controller = LiveController(platform_controller, guard, self._source, operator, monitor)
         if options.engage:

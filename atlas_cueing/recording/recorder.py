@@ -135,6 +135,14 @@ class McapRecorder:
         change = self._status_class(time_s=time, state=utf8(state), reason=utf8(reason))
         self._statuses.append((time, change.SerializeToString()))
 
+    def sync(self) -> None:
+        """Let the disk take what was written up to now, against a power cut; raise as `append`."""
+        self._refuse_after_failure()
+        try:
+            os.fdatasync(self._file)
+        except OSError as error:
+            raise self._fail(error) from error
+
     def close(self, result: str, reason: str) -> None:
         """Write what is left, add result and reason to the metadata, and give the log its name.
 

@@ -31,7 +31,8 @@ class RunResult:
     """How a run ended, where its log is, and what was found in it.
 
     result: ok, vehicle_failed, interrupted or recording_failed; of a live run also input_lost,
-        fault, stopped, setpoints_unsent or recorder_died. `reason` says why it is not ok.
+        viewer_died, fault, stopped, setpoints_unsent or recorder_died. `reason` says why it is not
+        ok.
     log: the finished log; after recording_failed the .part with what could be written; None when
         nothing was written.
     ticks: number of ticks recorded. duration: time of the last one, s.

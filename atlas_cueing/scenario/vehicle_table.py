@@ -8,6 +8,7 @@ from pydantic_core import InitErrorDetails
 from .flightgear_table import FlightgearTable
 from .jsbsim_table import JsbsimTable
 from .mistakes import Key
+from .packet_table import PacketTable
 from .recording_table import RecordedFlightTable
 from .rigid_body_table import RigidBodyTable
 from .signal_table import SignalFlightTable
@@ -20,6 +21,7 @@ AnySource: TypeAlias = (
     JsbsimTable
     | SignalFlightTable
     | FlightgearTable
+    | PacketTable
     | RecordedFlightTable
     | RigidBodyTable
     | TrackTable

@@ -5,6 +5,7 @@ and a gate that keeps web pages of other hosts away from its servers.
 """
 
 from .child_process import ChildProcess, Left, ProcessExit
+from .helper_watch import HelperWatch, Loss
 from .messages import LiveWriter, live_ring
 from .operator_buttons import BUTTONS, OperatorButtons
 from .origin_gate import OriginGate, listen
@@ -13,8 +14,10 @@ from .ring import Ring, RingReader
 __all__ = [
     "BUTTONS",
     "ChildProcess",
+    "HelperWatch",
     "Left",
     "LiveWriter",
+    "Loss",
     "OperatorButtons",
     "OriginGate",
     "ProcessExit",

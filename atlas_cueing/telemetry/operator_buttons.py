@@ -7,7 +7,7 @@ anonymous and reaches the other process by `fork`.
 import mmap
 from threading import Lock
 
-BUTTONS = ("engage", "hold", "park", "reset")
+BUTTONS = ("engage", "hold", "park", "reset", "stop")
 _SIZE = 8 * len(BUTTONS)
 
 

@@ -15,6 +15,7 @@ from .jsbsim.jsbsim_vehicle import JsbsimVehicle
 from .jsbsim.library import own_aircraft, own_scripts, suggestion
 from .jsbsim.loading import input_objections
 from .limited_duration import LimitedDuration
+from .packets import PacketFlight
 from .recorded_vehicle import RecordedVehicle
 from .rigid_body import RigidBodyFlight, RigidBodyVehicle
 from .signal_shapes import Signal
@@ -33,6 +34,7 @@ __all__ = [
     "JsbsimVehicle",
     "LimitedDuration",
     "PacketError",
+    "PacketFlight",
     "RecordedVehicle",
     "RigidBodyFlight",
     "RigidBodyVehicle",

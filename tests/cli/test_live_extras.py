@@ -7,20 +7,21 @@ from threading import Thread
 
 import pytest
 
-from atlas_cueing.cli.live_extras import _LARGEST_KEY, drives
+from atlas_cueing.cli.live_extras import drives
 from atlas_cueing.errors import InputError
+from atlas_cueing.live.input.shared_key import LARGEST_KEY
 
 HERE = "127.0.0.1:5600"
 
 
 def test_a_file_of_the_largest_size_will_do(tmp_path: Path) -> None:
     """What is around the key does not count."""
-    (tmp_path / "key").write_bytes(b"k" * 32 + b"\n" * (_LARGEST_KEY - 32))
+    (tmp_path / "key").write_bytes(b"k" * 32 + b"\n" * (LARGEST_KEY - 32))
     with drives(HERE, tmp_path / "key") as senders:
         assert len(senders) == 1
 
 
-@pytest.mark.parametrize("size", [_LARGEST_KEY + 1, 256 * 2**20])
+@pytest.mark.parametrize("size", [LARGEST_KEY + 1, 256 * 2**20])
 def test_a_key_that_is_too_large_is_not_read(size: int, tmp_path: Path) -> None:
     with (tmp_path / "key").open("wb") as file:
         file.truncate(size)

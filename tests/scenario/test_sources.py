@@ -17,10 +17,12 @@ from atlas_cueing.scenario.vehicle_table import DEFAULT_SOURCE, SOURCES
 from .test_vehicle_table import FLIGHTGEAR, RECORDING, RIGID_BODY, TRACK
 from .texts import AIRCRAFT, SCRIPT, SIGNALS
 
+PACKETS = FLIGHTGEAR.replace('"flightgear"', '"packets"')
 EXAMPLES = {
     "jsbsim": (SCRIPT, AIRCRAFT),
     "signal": (SIGNALS,),
     "flightgear": (FLIGHTGEAR,),
+    "packets": (PACKETS, PACKETS.replace('"packets"', '"packets"\nkey_file = "key"')),
     "recording": (RECORDING,),
     "rigid_body": (RIGID_BODY,),
     "track": (TRACK,),

@@ -225,8 +225,8 @@ def test_near_names_are_given(refused: Refused) -> None:
         (
             SCRIPT.replace("[vehicle]", '[vehicle]\nsource = "xplane"'),
             [
-                "vehicle.source = 'xplane': allowed: 'jsbsim', 'signal', 'flightgear', 'recording',"
-                " 'rigid_body', 'track'"
+                "vehicle.source = 'xplane': allowed: 'jsbsim', 'signal', 'flightgear', 'packets',"
+                " 'recording', 'rigid_body', 'track'"
             ],
         ),
         (
@@ -359,11 +359,13 @@ def test_what_flies_live_goes_into_its_log(tmp_path: Path, text: str) -> None:
 @pytest.mark.parametrize(
     "host", ['"0.0.0.0"', '"192.168.1.2"', '"::1"', '"localhost"', '""', "1", "nan", "[]"]
 )
-def test_packets_of_other_machines_are_not_taken_yet(refused: Refused, host: str) -> None:
+def test_packets_of_other_machines_are_no_matter_of_the_scenario(
+    refused: Refused, host: str
+) -> None:
     (told,) = refused(FLIGHTGEAR, f"vehicle.host={host}")
     assert told.endswith(
-        "allowed: '127.0.0.1' or another loopback address; packets from other machines are not"
-        " taken yet"
+        "allowed: '127.0.0.1' or another loopback address; for packets of other machines: live"
+        " --listen"
     )
 
 
@@ -404,7 +406,7 @@ def test_packets_of_other_machines_are_not_taken_yet(refused: Refused, host: str
             RECORDING.replace("[platform]", "rate_hz = 50\nport = 5\n[platform]"),
             ["rate_hz: not with", "port: not with"],
         ),
-        (SCRIPT.replace('"c1722"', '"c1722"\nport = 5'), ["port: only with source = 'flightgear'"]),
+        (SCRIPT.replace('"c1722"', '"c1722"\nport = 5'), ["port: not with source = 'jsbsim'"]),
         (SCRIPT.replace('"c1722"', '"c1722"\nlog = "x"'), ["log: only with source = 'recording'"]),
     ],
 )

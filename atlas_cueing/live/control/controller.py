@@ -36,25 +36,28 @@ _REST_STATES = (State.PARKED, State.STOPPED)
 class OperatorInputs:
     """What is requested of a live run from outside.
 
-    buttons: returns the buttons pressed since the last call: engage, hold, park, reset.
+    buttons: returns the buttons pressed since the last call: engage, hold, park, reset, stop.
     stop_requests: returns how often the process has been asked to end; the first request parks, the
         second stops at once.
     duration: s until the platform parks by itself.
     attended: an operator can engage and reset; otherwise the run engages by itself and is over when
         it has parked or stopped.
+    losses: returns the helpers found dead since the last call: what to tell, and whether to park.
     """
 
     buttons: Callable[[], Iterable[str]] = tuple
     stop_requests: Callable[[], int] = int
     duration: float = float("inf")
     attended: bool = False
+    losses: Callable[[], Iterable[tuple[str, bool]]] = tuple
 
 
 @dataclass(frozen=True, slots=True)
 class RunOutcome:
     """How a run went.
 
-    result: ok, vehicle_failed, input_lost, fault or stopped: the first thing that went wrong.
+    result: ok, vehicle_failed, input_lost, viewer_died, fault or stopped: the first thing that went
+        wrong.
     reason: what went wrong, in words; empty for ok.
     faults: number of faults.
     dropped: number of samples that the source refused.
@@ -92,6 +95,7 @@ class LiveController:
         self._finishing = self._landing = self._source_failed = False
         # whether it was asked to engage, has had a good sample, and has set out to the cue
         self._asked = self._heard = self._set_out = False
+        self._attended, self._input_lost = operator.attended, False
         self._stop_requests = self._requests_before_fault = 0
         # the last motion and command that went out
         self._last_motion = platform.motion
@@ -245,16 +249,31 @@ class LiveController:
                 self._changes.append((self.state, f"not reset: {self._drives.trouble}"))
             elif name in BUTTON_EVENTS:
                 self._handle(BUTTON_EVENTS[name], f"asked to {name}")
+            elif name == "stop":
+                self._stop_at_once("asked to stop")
+        for text, parks in self._operator.losses():
+            self._lose_helper(text, parks)
         self._stop_requests = self._operator.stop_requests()
-        if self._stop_requests > 1 and self.state not in _FAULT_STATES:
-            self._failures.append(("stopped", "asked to stop at once"))
-            self._fail("asked to stop at once")
+        if self._stop_requests > 1:
+            self._stop_at_once("asked to stop at once")
         self._finishing |= self._stop_requests > 0 or time >= self._operator.duration
+
+    def _stop_at_once(self, reason: str) -> None:
+        if self.state not in _FAULT_STATES:
+            self._failures.append(("stopped", reason))
+            self._fail(reason)
+
+    def _lose_helper(self, text: str, parks: bool) -> None:
+        """Tell that a helper has died; without the operator's view, go home for good."""
+        self._changes.append((self.state, text))
+        if parks:
+            self._failures.append(("viewer_died", text))
+            self._attended, self._finishing = False, True
 
     def _waits_for_reset(self) -> bool:
         """Whether an operator is there, and nobody has asked to end since the fault."""
         requests = self._stop_requests
-        return self._operator.attended and requests < 2 and requests <= self._requests_before_fault
+        return self._attended and requests < 2 and requests <= self._requests_before_fault
 
     def _read_source(self, time: float, advance: bool) -> None:
         """Read the source; a vehicle that fails ends the run as the end of its flight does.
@@ -322,10 +341,12 @@ class LiveController:
         if not self._platform.handle(event):
             return
         self._changes.append((self.state, reason))
+        self._input_lost |= event is Event.LOST
         if event is Event.RESET:
             self._guard.start(standstill(self._last_motion, self._last.wheel_angle))
-        if not self._operator.attended and self.state in _REST_STATES and not self._finishing:
-            self._failures.append(("input_lost", "parked, since the input was lost"))
+        if not self._attended and self.state in _REST_STATES:
+            if self._input_lost and not self._finishing:
+                self._failures.append(("input_lost", "parked, since the input was lost"))
             self._finishing = True
 
 

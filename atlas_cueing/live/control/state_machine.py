@@ -137,3 +137,15 @@ def allowed_buttons() -> Mapping[str, Collection[str]]:
     }
     buttons[State.HOLDING.value] |= {"engage", "hold"}
     return buttons
+
+
+def allowed_commands() -> Mapping[str, Collection[str]]:
+    """Return the operator's commands that have an effect, by the name of the state.
+
+    They are the buttons, and `stop` for a stop at once of whatever is not stopped by a fault.
+    """
+    stops = {state.value for state in State if Event.FAULT in TRANSITIONS[state]}
+    return {
+        state: {*buttons, *(["stop"] if state in stops else [])}
+        for state, buttons in allowed_buttons().items()
+    }

@@ -15,6 +15,7 @@ from ...telemetry.messages import END, STATUS, TICK, numbers, status
 
 # a tick goes to the disk after at most this and one poll: a kill loses less than 0.1 s
 FLUSH_S = 0.06
+SYNC_S = 1.0  # s between two requests that the disk takes what was written
 # at most, when there is much to catch up with; fewer than in a chunk of the recorder's own
 CHUNK_TICKS = 256
 _STDERR = 2
@@ -63,7 +64,7 @@ class RingRecorder:
         self._recorder = recorder
         self._announce = announce
         self._report = report or report_on_stderr
-        self._flushed = -1.0
+        self._flushed = self._synced = -1.0
         # ticks read, ticks in the log, messages known to be lost
         self._taken = self._kept = self._lost = 0
         self._latest = 0.0  # s; time of the last tick read
@@ -81,6 +82,9 @@ class RingRecorder:
         if now >= self._flushed + FLUSH_S:
             self._flush()
             self._flushed = now
+        if now >= self._synced + SYNC_S:
+            self._try(self._recorder.sync)
+            self._synced = now
         return None
 
     def orphaned(self) -> Recorded:
@@ -109,6 +113,8 @@ class RingRecorder:
     def _record_gap(self) -> None:
         lost, self._lost = self._reader.lost - self._lost, self._reader.lost
         if lost:
+            if not self._announce:
+                self._report(f"{self._latest:7.2f} s  {lost} messages are not recorded")
             self._status(
                 StateChange(
                     self._latest,

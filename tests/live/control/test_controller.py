@@ -343,3 +343,46 @@ def test_a_vehicle_of_the_other_sign_does_not_tear_the_log() -> None:
     rig.source.quiet = False
     rig.fly(0.05)
     assert all(tick.vehicle.q_NB[0] > 0.9 for tick in rig.tape.ticks)
+
+
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("attended", [False, True])
+def test_the_operator_stops_it_at_once(state: State, attended: bool) -> None:
+    rig = rig_in(state, attended=attended)
+    rig.press("stop")
+    rig.tick()
+    assert rig.state is State.FAULT_STOPPING
+    rig.until(State.STOPPED, 2.0)
+    rig.fly(0.5)
+    assert rig.controller.over != attended
+    outcome = rig.controller.outcome
+    assert (outcome.result, outcome.reason) == ("stopped", "asked to stop")
+    assert rig.excess() <= ROUNDING
+
+
+def test_an_unattended_run_that_is_asked_to_park_ends_well() -> None:
+    rig = rig_in(State.RUNNING, attended=False)
+    rig.press("park")
+    rig.until(lambda: rig.controller.over, 10.0)
+    assert (rig.state, rig.controller.outcome.result) == (State.PARKED, "ok")
+
+
+@pytest.mark.parametrize("state", State)
+@pytest.mark.parametrize("parks", [False, True])
+def test_a_dead_helper_is_told_and_the_view_takes_the_ride_home(state: State, parks: bool) -> None:
+    rig = rig_in(state)
+    losses = [("it has died", parks)]
+    rig.controller._operator = replace(
+        rig.controller._operator, losses=lambda: [losses.pop()] if losses else []
+    )
+    rig.tick()
+    assert [reason for _, reason in changes_of(rig)].count("it has died") == 1
+    if not parks:
+        rig.fly(0.5)
+        assert not rig.controller.over
+        return
+    rig.until(lambda: rig.controller.over, 12.0)
+    faulted = state in (State.FAULT_STOPPING, State.STOPPED)
+    assert rig.state is (State.STOPPED if faulted else State.PARKED)
+    assert rig.controller.outcome.result == ("fault" if faulted else "viewer_died")
+    assert rig.excess() <= ROUNDING

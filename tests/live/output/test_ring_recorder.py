@@ -97,6 +97,30 @@ class TestTheLog:
         recorder.step(10.0 + FLUSH_S)
         assert part.stat().st_size > size
 
+    def test_the_disk_is_asked_to_take_it_once_a_second(
+        self, path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        asked: list[int] = []
+        monkeypatch.setattr("os.fdatasync", asked.append)
+        _, writer, recorder = following(path)
+        for k in range(100):
+            writer.tick(*live_tick(0.05 * k))
+            recorder.step(10.0 + 0.05 * k)
+        assert len(asked) == 5
+
+    def test_a_disk_that_takes_nothing_is_told(
+        self, path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        def full(_: int) -> None:
+            raise OSError(28, "No space left on device")
+
+        monkeypatch.setattr("os.fdatasync", full)
+        lines: list[str] = []
+        _, writer, recorder = following(path, lines)
+        writer.tick(*live_tick(0.0))
+        recorder.step(0.0)
+        assert "nothing more is recorded" in lines[0]
+
     def test_an_overrun_is_told_where_it_happened(self, path: Path) -> None:
         ring, writer, recorder = following(path)
         writer.tick(*live_tick(0.0))

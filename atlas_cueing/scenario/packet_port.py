@@ -1,0 +1,32 @@
+"""The keys that the `[vehicle]` tables of all sources of packets have."""
+
+from ipaddress import AddressValueError, IPv4Address
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator
+
+from ..vehicles.flightgear import LOOPBACK
+from .tables import ScenarioTable, number, refuse, whole
+
+
+def _loopback(value: Any) -> str:
+    try:
+        if isinstance(value, str) and IPv4Address(value).is_loopback:
+            return value
+    except AddressValueError:
+        pass
+    raise refuse(
+        f"{LOOPBACK!r} or another loopback address; for packets of other machines: live --listen"
+    )
+
+
+class PacketPort(ScenarioTable):
+    """Where packets come in, and how many a second, nominally.
+
+    After `hold_after_s` without a good packet the platform holds.
+    """
+
+    rate_hz: Annotated[float, number(10.0, 1000.0)] | None = None
+    host: Annotated[str, BeforeValidator(_loopback)] | None = None
+    port: Annotated[int, whole(1, 65535)] | None = None
+    hold_after_s: Annotated[float, number(0.05, 1.0)] | None = None
