@@ -88,6 +88,23 @@ DriveTimeout: TypeAlias = Annotated[
         metavar="MS",
     ),
 ]
+PoseFile: TypeAlias = Annotated[
+    Path | None,
+    typer.Option(
+        "--pose",
+        help="File with the platform's last pose, with --setpoints; by default"
+        " $XDG_STATE_HOME/atlas_cueing/pose.json.",
+        metavar="FILE",
+    ),
+]
+From: TypeAlias = Annotated[
+    str | None,
+    typer.Option(
+        "--from",
+        help="Where the platform stands: home, a file with a pose, or the log of the last run.",
+        metavar="home|POSE|LOG",
+    ),
+]
 Foxglove: TypeAlias = Annotated[
     int | None,
     typer.Option(
@@ -120,6 +137,8 @@ def live_command(
     lead: Lead = 8.0,
     no_drive_status: DriveStatus = False,
     drive_timeout: DriveTimeout = 50.0,
+    pose: PoseFile = None,
+    from_: From = None,
     foxglove: Foxglove = None,
     priority: Priority = False,
     settings: Settings = None,
@@ -139,7 +158,7 @@ def live_command(
     from ..live import LiveOptions, LiveSession
     from ..run import StopRequest, check_output
     from ..scenario import load_scenario
-    from .live_extras import drives, followers
+    from .live_extras import drives, followers, start
     from .summary import end, run_summary
     from .text import one_json
 
@@ -149,15 +168,18 @@ def live_command(
     inputs = [scenario, *loaded.inputs(), *([key] if key else [])]
     log = output or Path(f"{loaded.name}.mcap")
     log = check_output(log, inputs=inputs, force=force, fresh=True)
+    stands, pose_file = start(setpoints, pose, from_, loaded)
     options = LiveOptions(
         rate,
         _duration(duration, loaded),
         attended=view,
         engage=not wait,
         priority=priority,
-        announce=not as_json,
+        announce=not as_json or setpoints is not None,  # somebody may sit in it
         lead=1e-3 * lead,
         drive_timeout=1e-3 * drive_timeout,
+        pose=stands,
+        pose_file=pose_file,
     )
     session = LiveSession(loaded, log, options)
     with StopRequest(interrupt=False) as stop:

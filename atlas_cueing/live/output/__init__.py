@@ -5,6 +5,7 @@
 
 from .foxglove_server import FoxgloveProcess
 from .hello import limits_hash
+from .pose_process import PoseProcess
 from .receiver import SetPointReceiver
 from .recorder_process import RecorderProcess
 from .ring_recorder import Recorded, RingRecorder
@@ -14,6 +15,7 @@ from .status_sender import StatusSender
 
 __all__ = [
     "FoxgloveProcess",
+    "PoseProcess",
     "Recorded",
     "RecorderProcess",
     "RingRecorder",
