@@ -78,7 +78,7 @@ def test_rubbish_is_no_pose(tmp_path: Path, rubbish: str) -> None:
 
 def test_a_place_that_cannot_be_written_is_told(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
-    with pytest.raises(OutputError, match="pose .*: (Not a directory|File exists)"):
+    with pytest.raises(OutputError, match=r"pose .*: (Not a directory|File exists)"):
         write_pose(tmp_path / "file" / "pose.json", AWAY, NAME, moving=False)
 
 
