@@ -21,6 +21,8 @@ Examples:
 
   atlas-cueing live scenarios/live/flightgear.toml --setpoints 127.0.0.1:5600 --foxglove 8765
 
+  atlas-cueing live scenarios/f16_rolls.toml --setpoints 127.0.0.1:5600 --from f16_rolls.mcap
+
 Ctrl-C or SIGTERM parks the platform and finishes the log; a second one stops it at once. This
 program is not a safety device: emergency stop and the monitoring of speed and position belong to
 hardware.
@@ -150,7 +152,8 @@ def live_command(
 
     It engages by itself after a second of good input, blends to the cue, and parks when the flight
     is over. With --view it can be held, parked and engaged by buttons, and a fault waits for a
-    reset; without, a fault ends the run.
+    reset; without, a fault ends the run, but one with --setpoints does not leave anybody: it goes
+    slowly home when lateness was all, and else stands there until it is asked to end.
 
     Exit status 0: flown and parked, every limit kept. 1: a fault, or the vehicle or its input
     failed; the log is complete. 2: bad input, nothing was written.
