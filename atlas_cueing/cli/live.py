@@ -21,6 +21,7 @@ Examples:
 
   atlas-cueing live scenarios/live/flightgear.toml --setpoints 127.0.0.1:5600 --foxglove 8765
 
+  atlas-cueing live scenarios/f16_rolls.toml --setpoints 127.0.0.1:5600 --from f16_rolls.mcap
   atlas-cueing live scenarios/live/packets.toml --listen 192.168.1.2 --set vehicle.key_file=key
 
 Ctrl-C, SIGTERM or a terminal that hangs up parks the platform and finishes the log; a second one
@@ -90,6 +91,23 @@ DriveTimeout: TypeAlias = Annotated[
         metavar="MS",
     ),
 ]
+PoseFile: TypeAlias = Annotated[
+    Path | None,
+    typer.Option(
+        "--pose",
+        help="File with the platform's last pose, with --setpoints; by default"
+        " $XDG_STATE_HOME/atlas_cueing/pose.json.",
+        metavar="FILE",
+    ),
+]
+From: TypeAlias = Annotated[
+    str | None,
+    typer.Option(
+        "--from",
+        help="Where the platform stands: home, a file with a pose, or the log of the last run.",
+        metavar="home|POSE|LOG",
+    ),
+]
 Foxglove: TypeAlias = Annotated[
     int | None,
     typer.Option(
@@ -130,6 +148,8 @@ def live_command(
     lead: Lead = 8.0,
     no_drive_status: DriveStatus = False,
     drive_timeout: DriveTimeout = 50.0,
+    pose: PoseFile = None,
+    from_: From = None,
     foxglove: Foxglove = None,
     listen: Listen = None,
     priority: Priority = False,
@@ -142,8 +162,9 @@ def live_command(
 
     It engages by itself after a second of good input, blends to the cue, and parks when the flight
     is over. With --view it can be held, parked and engaged by buttons, and a fault waits for a
-    reset; without, a fault ends the run. Commands come on stdin, too, and by `atlas-cueing
-    operate`: engage, hold, park, reset, stop, state.
+    reset; without, a fault ends the run, but one with --setpoints does not leave anybody: it goes
+    slowly home when lateness was all, and else stands there until it is asked to end. Commands come
+    on stdin, too, and by `atlas-cueing operate`: engage, hold, park, reset, stop, state.
 
     Exit status 0: flown and parked, every limit kept. 1: a fault, or the vehicle or its input
     failed; the log is complete. 2: bad input, nothing was written.
@@ -151,7 +172,7 @@ def live_command(
     from ..live import LiveOptions, LiveSession
     from ..run import StopRequest, check_output
     from ..scenario import load_scenario
-    from .live_extras import drives, followers
+    from .live_extras import drives, followers, start
     from .summary import end, run_summary
     from .text import one_json
 
@@ -161,6 +182,7 @@ def live_command(
     inputs = [scenario, *loaded.inputs(), *([key] if key else [])]
     log = output or Path(f"{loaded.name}.mcap")
     log = check_output(log, inputs=inputs, force=force, fresh=True)
+    stands, pose_file = start(setpoints, pose, from_, loaded)
     options = LiveOptions(
         rate,
         _duration(duration, loaded),
@@ -170,11 +192,14 @@ def live_command(
         lead=1e-3 * lead,
         drive_timeout=1e-3 * drive_timeout,
         listen=listen,
+        pose=stands,
+        pose_file=pose_file,
     )
     session = LiveSession(loaded, log, options)
+    tell = not as_json or setpoints is not None  # somebody may sit in it
     with StopRequest(interrupt=False) as stop:
         with (
-            followers(session, loaded, port if view else None, foxglove, tell=not as_json),
+            followers(session, loaded, port if view else None, foxglove, tell=tell),
             drives(setpoints, key, loaded, listen=not no_drive_status) as (senders, feedback),
         ):
             result = session.run(senders, lambda: stop.count, feedback)

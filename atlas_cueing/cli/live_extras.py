@@ -13,6 +13,7 @@ from .text import say
 if TYPE_CHECKING:
     from ..live import Drives, LiveSession
     from ..live.control import DriveFeedback
+    from ..live.control.pose import Pose
     from ..scenario import Scenario
 
 _HIGHEST_PORT = 65535
@@ -109,6 +110,30 @@ def drives(
         yield (sender,), sender if listen else None
     if sender.unsent:
         say(f"{sender.unsent} set points could not be sent to {setpoints}")
+
+
+def start(
+    setpoints: str | None, file: Path | None, stated: str | None, scenario: "Scenario"
+) -> tuple["Pose", Path | None]:
+    """Return the pose to start from, and the file to keep it in: None without set points.
+
+    Raises InputError when the platform is not known to be at home and nothing is stated.
+    """
+    from ..live.control.pose import Pose
+    from ..live.start_pose import default_pose_file, start_pose
+
+    if setpoints is None:
+        if file is not None or stated is not None:
+            raise InputError(
+                f"{'--pose' if stated is None else '--from'} is for --setpoints HOST:PORT, which"
+                " is missing"
+            )
+        return Pose(), None
+    file = file or default_pose_file()
+    pose = start_pose(stated, file, scenario.platform)
+    if not pose.is_home:
+        say(f"starts stopped, {pose}; a reset brings it slowly home")
+    return pose, file
 
 
 def _address(text: str) -> tuple[str, int]:

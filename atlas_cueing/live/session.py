@@ -3,7 +3,7 @@
 import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from math import degrees, radians
 from pathlib import Path
 
@@ -23,10 +23,11 @@ from .control import (
     RunOutcome,
 )
 from .control.drive_monitor import TIMEOUT
+from .control.pose import Pose
 from .input import Source, no_vehicle
-from .loop import LEAD, Drives, Loop
+from .loop import LEAD, Drives, Loop, Output
 from .open_source import open_source
-from .output import Recorded, RecorderProcess, limits_hash
+from .output import PoseProcess, Recorded, RecorderProcess, limits_hash
 from .realtime import RealtimeScheduling, collections, realtime_scheduling
 from .timing import LoopTiming
 
@@ -54,6 +55,8 @@ class LiveOptions:
     engage: engage at the start.
     priority: ask the system for SCHED_FIFO, locked memory and a core of its own.
     announce: let the recorder report changes of state on stderr; the command's desk does it itself.
+    pose: where the platform stands; anywhere but at home the run starts stopped.
+    pose_file: where the pose is kept; None for nowhere.
     drive_timeout: s that the drives may be silent while the platform moves, if they speak.
     listen: address of this machine that packets come to; None for the scenario's, a loopback.
     """
@@ -67,6 +70,8 @@ class LiveOptions:
     lead: float = LEAD
     drive_timeout: float = TIMEOUT
     listen: str | None = None
+    pose: Pose = field(default_factory=Pose)
+    pose_file: Path | None = None
 
 
 class LiveSession:
@@ -134,11 +139,14 @@ class LiveSession:
             self.helpers.add(
                 lambda: recorder.alive, "the recorder has died: nothing more is recorded"
             )
+            keeper, carries = self._pose_process(), bool(drives)
             monitor = self._monitor(feedback)
-            controller = self._controller(stop_requests, monitor)
+            controller = self._controller(stop_requests, monitor, carries=carries)
             writer = LiveWriter(self.ring)
+            outputs: list[Output] = [writer, keeper] if keeper else [writer]
+            drives = [*drives, keeper] if keeper else drives
             loop = Loop(
-                *(self._dt, self._clock, controller, [writer], drives, self._origin),
+                *(self._dt, self._clock, controller, outputs, drives, self._origin),
                 lead=self._options.lead,
             )
             try:
@@ -147,10 +155,20 @@ class LiveSession:
                 outcome = controller.outcome
                 writer.end(loop.time, outcome.result, outcome.reason)
                 recorded = recorder.finish()
+                unkept = keeper.finish() if keeper else ""
         told: dict[str, float | str] = {"drive_status": spoken}
         told |= monitor.figures() if monitor else {}
-        finding = monitor.finding if monitor else ""
-        return self._result(outcome, recorded, loop, realtime, told, finding)
+        found = [("setpoints_unsent", monitor.finding if monitor else ""), ("pose_unkept", unkept)]
+        return self._result(outcome, recorded, loop, realtime, told, found)
+
+    def _pose_process(self) -> PoseProcess | None:
+        """Start to keep the pose, where that is wanted."""
+        file, platform = self._options.pose_file, self._scenario.platform
+        if file is None:
+            return None
+        limits = platform.wheel_limit_values(), platform.stage_limit_values()
+        J = platform.geometry().sphere_from_wheels
+        return PoseProcess(file, platform.name, limits, J, self._options.pose)
 
     def _monitor(self, feedback: DriveFeedback | None) -> DriveMonitor | None:
         platform = self._scenario.platform
@@ -158,7 +176,7 @@ class LiveSession:
         return DriveMonitor(feedback, limits, self._options.drive_timeout) if feedback else None
 
     def _controller(
-        self, stop_requests: Callable[[], int], monitor: DriveMonitor | None
+        self, stop_requests: Callable[[], int], monitor: DriveMonitor | None, *, carries: bool
     ) -> LiveController:
         options, platform = self._options, self._scenario.platform
         limits = platform.stage_limit_values()
@@ -171,14 +189,16 @@ class LiveSession:
             platform.wheel_limit_values(),
             limits,
             self._dt,
+            options.pose,
         )
         guard = Guard(self._dt, platform.wheel_limit_values(), limits)
         operator = OperatorInputs(
             *(self.buttons.edges, stop_requests, options.duration, options.attended),
             losses=self.helpers.losses,
+            carries=carries,
         )
         controller = LiveController(platform_controller, guard, self._source, operator, monitor)
-        if options.engage:
+        if options.engage and options.pose.is_home:
             controller.engage()
         return controller
 
@@ -202,13 +222,14 @@ class LiveSession:
         loop: Loop,
         realtime: RealtimeScheduling,
         told: Mapping[str, float | str],
-        finding: str,
+        found: Sequence[tuple[str, str]],
     ) -> RunResult:
         unrecorded = outcome.result == "ok" and recorded.result in _UNRECORDED
         ended = recorded if unrecorded else outcome
         result, reason = ended.result, ended.reason
         if result == "ok":
-            result, reason = ("setpoints_unsent", finding) if finding else _unsent(loop.timing)
+            findings = [(name, text) for name, text in (*found, _unsent(loop.timing)) if text]
+            result, reason = findings[0] if findings else ("ok", "")
         figures = LiveFigures(
             *(outcome.faults, outcome.dropped, recorded.lost, loop.timing.to_json()),
             *(asdict(realtime), told),

@@ -12,6 +12,8 @@ Fault = Callable[[Rig], None]
 ALL = frozenset(State)
 FAULTS = frozenset({State.FAULT_STOPPING, State.STOPPED})
 AT_REST = frozenset({State.PARKED, State.WAITING})
+# a hold's stop is made without smoothing
+SMOOTHED = ALL - FAULTS - {State.HOLDING}
 FOLLOWING = frozenset({State.ENGAGING, State.RUNNING})
 
 
@@ -108,11 +110,11 @@ MATRIX: Mapping[str, tuple[Fault, frozenset[State], State]] = {
     "jump": (jump, FOLLOWING, State.HOLDING),
     "25 ms late": (late, ALL - FAULTS - AT_REST, State.FAULT_STOPPING),
     "cueing raises": (broken_cueing, FOLLOWING, State.FAULT_STOPPING),
-    "smoothing raises": (broken_smoothing, ALL - FAULTS, State.FAULT_STOPPING),
-    "stage shifted": (illegal(shifted), ALL - FAULTS, State.FAULT_STOPPING),
-    "wheel jerked": (illegal_wheels(0.0, 0.5), ALL - FAULTS, State.FAULT_STOPPING),
-    "wheel shifted": (illegal_wheels(0.1, 0.0), ALL - FAULTS, State.FAULT_STOPPING),
-    "not a number": (illegal_wheels(0.0, nan), ALL - FAULTS, State.FAULT_STOPPING),
+    "smoothing raises": (broken_smoothing, SMOOTHED, State.FAULT_STOPPING),
+    "stage shifted": (illegal(shifted), SMOOTHED, State.FAULT_STOPPING),
+    "wheel jerked": (illegal_wheels(0.0, 0.5), SMOOTHED, State.FAULT_STOPPING),
+    "wheel shifted": (illegal_wheels(0.1, 0.0), SMOOTHED, State.FAULT_STOPPING),
+    "not a number": (illegal_wheels(0.0, nan), SMOOTHED, State.FAULT_STOPPING),
 }
 LEADS_ON = {
     State.FAULT_STOPPING: {State.STOPPED},

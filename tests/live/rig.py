@@ -16,6 +16,7 @@ from atlas_cueing.live.control.drive_monitor import DriveMonitor
 from atlas_cueing.live.control.drive_status import DriveFeedback
 from atlas_cueing.live.control.guard import Guard
 from atlas_cueing.live.control.platform_controller import PlatformController
+from atlas_cueing.live.control.pose import Pose
 from atlas_cueing.live.control.slot import Slot
 from atlas_cueing.live.control.state_machine import State
 from atlas_cueing.live.input.source import SourceReading
@@ -190,6 +191,8 @@ class Rig:
         lead: float = LEAD,
         drives: Sequence[Drives] = (),
         feedback: DriveFeedback | None = None,
+        carries: bool = False,
+        pose: Pose | None = None,
     ) -> None:
         self.dt, self.scenario = dt, scenario(platform, *settings)
         limits = self.scenario.platform
@@ -210,10 +213,11 @@ class Rig:
             self.wheel_limits,
             self.stage_limits,
             dt,
+            pose,
         )
         self.guard = Guard(dt, self.wheel_limits, self.stage_limits)
         operator = OperatorInputs(
-            self.wanted.edges, lambda: self.wanted.signals, duration, attended
+            self.wanted.edges, lambda: self.wanted.signals, duration, attended, carries
         )
         limits_told = limits_hash(self.wheel_limits, self.stage_limits)
         self.monitor = DriveMonitor(feedback, limits_told) if feedback else None

@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from waiting import until
 
 from atlas_cueing.live.control.state_machine import State
 
@@ -127,22 +128,27 @@ def test_over_the_loopback_with_real_processes(tmp_path: Path) -> None:
     command = [sys.executable, TOOL, "--port", "0", "--json", "--duration", "60"]
     drives = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert drives.stderr is not None
-    with drives:
-        port = drives.stderr.readline().split()[-1]  # and host
+    told = tmp_path / "told"
+    arguments = ["live", "s.toml", "--json", "--rate", "100", "--pose", "pose.json", *LONG]
+    with drives, told.open("w") as err:
+        address = drives.stderr.readline().split()[-1]
         live = subprocess.Popen(
-            [PROGRAM, "live", "s.toml", "--json", "--rate", "100", "--setpoints", port, *LONG],
+            [PROGRAM, *arguments, "--setpoints", address],
             cwd=tmp_path,
             stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
+            stderr=err,
             text=True,
         )
         for line in drives.stderr:
             if "running" in line:
                 break
         drives.kill()
-    out, err = live.communicate(timeout=60.0)
+    # it stays where it stopped until it is asked to end
+    until(lambda: "Ctrl-C or SIGTERM" in told.read_text() or live.poll() is not None, 60.0)
+    live.terminate()
+    out, _ = live.communicate(timeout=60.0)
+    assert "Traceback" not in told.read_text()
     result = json.loads(out)
-    assert "Traceback" not in err
     assert (live.returncode, result["result"]) == (1, "fault"), result
     assert "the drives were silent for" in result["reason"], result["reason"]
     assert result["drives"]["drive_status"] == "monitored"

@@ -5,7 +5,7 @@ from random import Random
 
 import pytest
 
-from atlas_cueing.live.control.platform_controller import AT_PARK
+from atlas_cueing.live.control.pose import AT_PARK
 from atlas_cueing.live.control.state_machine import State
 from atlas_cueing.rotation import IDENTITY, geodesic
 
@@ -34,7 +34,6 @@ def test_every_fault_in_every_state(state: State) -> None:
 
 def home(rig: Rig) -> None:
     """By the operator's hand from any state to rest at home; slowly after a fault."""
-    longest = 2.0 * LONGEST_END if rig.state in FAULTS else LONGEST_END
     if rig.state in FAULTS:
         rig.until(State.STOPPED, LONGEST_END)
         at_rest(rig)
@@ -43,7 +42,7 @@ def home(rig: Rig) -> None:
     elif rig.state is not State.PARKED:
         rig.press("park")
     rig.tick()
-    rig.until(State.PARKED, longest)
+    rig.until(State.PARKED, 2.0 * LONGEST_END)
     at_rest(rig)
     assert geodesic(rig.motion.q_WS, IDENTITY) < AT_PARK + ROUNDING
 

@@ -3,6 +3,7 @@
 The vehicle rolls, the loop is late in every way, and the platform parks in the end.
 """
 
+from copy import deepcopy
 from random import Random
 
 import pytest
@@ -10,7 +11,8 @@ import pytest
 from atlas_cueing.live.control.command import axes_of
 from atlas_cueing.live.control.state_machine import State
 
-from .virtual_drives import Delays, errors, excess, fly, punctual
+from .rig import Rig
+from .virtual_drives import Delays, VirtualDrives, errors, excess, fly, punctual
 
 
 def every(slots: int, late: float) -> Delays:
@@ -48,22 +50,34 @@ def test_a_late_ride_is_the_punctual_one(pattern: str) -> None:
     assert excess(rig, drives) < 1e-5
 
 
-@pytest.mark.parametrize("state", [State.ENGAGING, State.RUNNING, State.PARKING])
-@pytest.mark.parametrize("stall", [0.009, 0.025, 0.3])
-@pytest.mark.parametrize("inside", [False, True])
-def test_after_a_stall_both_fly_the_same_stop(state: State, stall: float, inside: bool) -> None:
-    """Before a tick, or in the middle of it."""
+def slot_in(state: State) -> int:
+    """A slot of the punctual ride in this state, moving; a hold begins ten slots before its own."""
+    if state in (State.HOLDING, State.FAULT_STOPPING):
+        return slot_in(State.RUNNING) + 12
     calm = punctual(100.0).tape.timings
     slots = [k for k, timing in enumerate(calm, 1) if timing.state == state.number]
-    slot = slots[min(len(slots) // 2 + 60, len(slots) - 10)]
+    return slots[min(len(slots) // 2 + 60, len(slots) - 20)]
 
-    def late(k: int) -> float:
-        return stall if k == slot else 0.0
 
-    def on_time(_: int) -> float:
-        return 0.0
+@pytest.mark.parametrize(
+    "state",
+    [State.ENGAGING, State.RUNNING, State.HOLDING, State.PARKING, State.FAULT_STOPPING],
+)
+@pytest.mark.parametrize(("stall", "inside"), [(0.009, False), (0.025, True), (0.3, False)])
+def test_after_a_stall_both_fly_the_same_stop(state: State, stall: float, inside: bool) -> None:
+    """Before a tick, or in the middle of it."""
+    slot, delays = slot_in(state), dict[int, float]()
+    delays[slot] = stall
+    if state is State.FAULT_STOPPING:
+        delays[slot - 4] = 0.025
 
-    rig, drives = fly(100.0, on_time if inside else late, cost=late if inside else on_time)
+    def hold(rig: Rig, now: int) -> None:
+        if state is State.HOLDING and now == slot - 10:
+            rig.press("hold")
+
+    late: dict[str, object] = {"cost" if inside else "delays": lambda k: delays.get(k, 0.0)}
+    rig, drives = fly(100.0, **{"delays": lambda _: 0.0, **late}, before_slot=hold)  # type: ignore[arg-type]
+    assert rig.tape.timings[slot - 2].state == state.number
     assert rig.controller.outcome.faults == 1
     assert drives.refused == ""
     attitude, wheels, stage = errors(rig, drives)
@@ -80,11 +94,19 @@ def test_a_stall_while_it_stands_is_no_fault() -> None:
 
 
 def test_a_sender_killed_at_any_slot_leaves_it_inside_its_travel() -> None:
-    slots = len(punctual(100.0).tape.commands)
-    for killed in range(130, slots, 211):
-        rig, drives = fly(100.0, lambda _: 0.0, killed=killed)
-        assert excess(rig, drives) < 1e-5
-        assert not any(v or a for _, v, a in axes_of(drives.path[-1]))
+    """Every seventh one of a ride; the drives come to rest by themselves, and keep every limit."""
+    rig = punctual(100.0)
+    drives = VirtualDrives(looks=2)
+    drives.start(rig)
+    for k, (sequence, time, due, state) in enumerate(rig.tape.sent):
+        rig.clock.time = 1e-9 * (due - 18_000_000)
+        assert drives.send(sequence, time, due, state, rig.tape.commands[k])
+        if k % 7 == 6:
+            alone = deepcopy(drives, {id(rig): rig})
+            alone.times, alone.path = alone.times[-3:], alone.path[-3:]
+            alone.look(due + 1_000_000_000)
+            assert excess(rig, alone) < 1e-5
+            assert not any(v or a for _, v, a in axes_of(alone.path[-1]))
 
 
 def test_a_run_ends_exactly_at_rest() -> None:

@@ -25,6 +25,7 @@ from .platform_controller import PlatformController
 from .slot import Slot
 from .state_machine import BUTTON_EVENTS, Event, State
 
+HOME_AFTER = 5.0  # s of punctual slots after which a late run that carries somebody goes home
 _REMEDY = "what helps: --priority, a longer --lead, a lower --rate, fewer programs beside it"
 
 _FAULT_STATES = (State.FAULT_STOPPING, State.STOPPED)
@@ -43,6 +44,8 @@ class OperatorInputs:
     attended: an operator can engage and reset; otherwise the run engages by itself and is over when
         it has parked or stopped.
     losses: returns the helpers found dead since the last call: what to tell, and whether to park.
+    carries: there are drives. A run that stopped does not leave them, unattended: after lateness it
+        goes home by itself, after any other fault it stays where it is until it is asked to end.
     """
 
     buttons: Callable[[], Iterable[str]] = tuple
@@ -50,6 +53,7 @@ class OperatorInputs:
     duration: float = float("inf")
     attended: bool = False
     losses: Callable[[], Iterable[tuple[str, bool]]] = tuple
+    carries: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,13 +100,17 @@ class LiveController:
         # whether it was asked to engage, has had a good sample, and has set out to the cue
         self._asked = self._heard = self._set_out = False
         self._attended, self._input_lost = operator.attended, False
-        self._stop_requests = self._requests_before_fault = 0
+        self._requests = self._requests_before_fault = 0  # to end: up to now, before the fault
         # the last motion and command that went out
         self._last_motion = platform.motion
         self._last = standstill(platform.motion, platform.wheel_angle)
+        guard.start(self._last)
+        self._late_only, self._homeward = False, platform.state is State.STOPPED
+        self._punctual_since: float | None = None  # s, while stopped
+        self._requests_then = 0  # when it stopped
         self._waiting: Tick | None = None  # made when it was too late for it; not gone out yet
         self._vehicle = no_vehicle(0.0)  # as last known
-        self._changes: list[tuple[State, str]] = [(State.PARKED, "")]
+        self._changes: list[tuple[State, str]] = [(platform.state, "")]
         self._failures: list[tuple[str, str]] = []  # result and reason, in order
         self._faults = self._dropped = 0
         self.reading = SourceReading(None, float("inf"), 0, 0, False, False, "")
@@ -122,7 +130,15 @@ class LiveController:
             return False
         if not (self.state in _REST_STATES and self._finishing and self._guard.standing):
             return False
-        return self.state is State.STOPPED or self._drives is None or self._drives.settled
+        if self.state is State.STOPPED:
+            return not self._stays
+        return self._drives is None or self._drives.settled
+
+    @property
+    def _stays(self) -> bool:
+        """Whether a stopped run goes on sending until it is asked to end (once more)."""
+        stays = self._operator.carries and not self._attended
+        return stays and self._requests <= self._requests_then
 
     @property
     def outcome(self) -> RunOutcome:
@@ -171,6 +187,8 @@ class LiveController:
         self._update_state(slot.time, put_off)
         if not standing:
             self._check_lateness(late)
+        if self.state is State.STOPPED:
+            self._go_home_when_punctual(slot.time, late)
         if self.state in _FAULT_STATES:
             return None
         if self._finishing and self.state in _REST_STATES and not standing:
@@ -239,8 +257,22 @@ class LiveController:
 
     def _check_lateness(self, late: float) -> None:
         """Raise a fault when it is too late for the set point by `late` (s) of this slot."""
-        if late > 0.0:
+        if late > 0.0 and self.state not in _FAULT_STATES:
             self._fail(f"a set point came {1e3 * late:.1f} ms too late for the drives; {_REMEDY}")
+            self._late_only = True
+
+    def _go_home_when_punctual(self, time: float, late: float) -> None:
+        """Reset a run that carries somebody and that nothing but lateness has stopped."""
+        operator = self._operator
+        if self._attended or not operator.carries or not self._late_only:
+            return
+        if late > 0.0 or (self._drives and self._drives.trouble):
+            self._punctual_since = None
+        elif self._punctual_since is None:
+            self._punctual_since = time
+        elif time - self._punctual_since >= HOME_AFTER:
+            self._homeward = True
+            self._handle(Event.RESET, f"punctual for {HOME_AFTER:g} s: slowly home")
 
     def _handle_operator(self, time: float) -> None:
         """Handle buttons, requests to end, and the end of the duration."""
@@ -253,10 +285,12 @@ class LiveController:
                 self._stop_at_once("asked to stop")
         for text, parks in self._operator.losses():
             self._lose_helper(text, parks)
-        self._stop_requests = self._operator.stop_requests()
-        if self._stop_requests > 1:
+        requests = self._requests = self._operator.stop_requests()
+        if requests > 0 and self.state is State.STOPPED and not self._failures:
+            self._failures.append(("stopped", "asked to end where it stands, away from home"))
+        if requests > 1:
             self._stop_at_once("asked to stop at once")
-        self._finishing |= self._stop_requests > 0 or time >= self._operator.duration
+        self._finishing |= requests > 0 or time >= self._operator.duration
 
     def _stop_at_once(self, reason: str) -> None:
         if self.state not in _FAULT_STATES:
@@ -272,7 +306,7 @@ class LiveController:
 
     def _waits_for_reset(self) -> bool:
         """Whether an operator is there, and nobody has asked to end since the fault."""
-        requests = self._stop_requests
+        requests = self._requests
         return self._attended and requests < 2 and requests <= self._requests_before_fault
 
     def _read_source(self, time: float, advance: bool) -> None:
@@ -324,8 +358,8 @@ class LiveController:
         """Raise a fault, unless there is one already."""
         if self.state in _FAULT_STATES:
             return
-        self._faults, self._landing = self._faults + 1, False
-        self._requests_before_fault = self._stop_requests
+        self._faults, self._landing, self._late_only = self._faults + 1, False, False
+        self._requests_before_fault = self._requests
         self._failures.append(("fault", reason))
         self._handle(Event.FAULT, reason)
 
@@ -344,10 +378,24 @@ class LiveController:
         self._input_lost |= event is Event.LOST
         if event is Event.RESET:
             self._guard.start(standstill(self._last_motion, self._last.wheel_angle))
-        if not self._attended and self.state in _REST_STATES:
-            if self._input_lost and not self._finishing:
-                self._failures.append(("input_lost", "parked, since the input was lost"))
-            self._finishing = True
+        if self.state is State.STOPPED:
+            self._punctual_since, self._requests_then = None, self._requests
+            # two requests have asked for this stop, and are all that is needed
+            self._requests_then -= self._requests > 1
+        if not self._attended and self.state in _REST_STATES and not self._finishing:
+            self._end_unattended()
+
+    def _end_unattended(self) -> None:
+        """End the run that has parked or stopped by itself, unless somebody would be left there."""
+        if self.state is State.STOPPED and self._operator.carries:
+            remedy = f"after {HOME_AFTER:g} punctual s" if self._late_only else "no more"
+            self._changes.append(
+                (self.state, f"set points go on; it moves {remedy}; Ctrl-C or SIGTERM ends the run")
+            )
+            return
+        if self._input_lost and not self._homeward:
+            self._failures.append(("input_lost", "parked, since the input was lost"))
+        self._finishing = True
 
 
 def _described(error: BaseException) -> str:

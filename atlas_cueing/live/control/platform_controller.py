@@ -9,7 +9,6 @@ from ...cueing import CueSource
 from ...errors import PlanningError
 from ...pipeline import Pipeline
 from ...rotation import (
-    IDENTITY,
     ZERO,
     Mat3,
     Quat,
@@ -28,6 +27,7 @@ from .command import Command, command_from
 from .gentle_stop import GentleStop
 from .input_monitor import ENGAGE_TIME, RESUME_TIME
 from .pace import Pace
+from .pose import Pose
 from .sign_continuity import SignContinuity
 from .state_machine import Event, State, next_state
 from .trajectories import (
@@ -42,17 +42,16 @@ from .trajectories import (
 
 # rad/s, m/s, and a tenth of it per s^2: below this the platform is at rest (assumed: imperceptible)
 AT_REST = 1e-3
-AT_PARK = 1e-3  # rad and m from upright in the centre
 LONGEST_BLEND = 5.0  # s
-
-_PARK_CUE = Cue(0.0, IDENTITY, ZERO, ZERO, ZERO, ZERO)
 
 
 class PlatformController:
-    """Takes the platform from state to state, and makes every tick; it starts parked.
+    """Takes the platform from state to state, and makes every tick.
+
+    It starts parked at home, and stopped anywhere else.
 
     state: the state the platform is in.
-    wheel_angle: of each wheel with the last motion, rad, from zero at the start of the run.
+    wheel_angle: of each wheel with the last motion, rad, from that of the pose at the start.
     """
 
     def __init__(
@@ -63,6 +62,7 @@ class PlatformController:
         wheel_limits: WheelLimits,
         stage_limits: StageLimits,
         dt: float,
+        pose: Pose | None = None,
     ):
         """Build the first pipeline.
 
@@ -73,21 +73,23 @@ class PlatformController:
             wheel_limits: of the wheels.
             stage_limits: of the stage.
             dt: tick, s.
+            pose: where the platform stands; at home by default.
         """
+        pose = pose or Pose()
         self._new_pipeline = new_pipeline
         self._J = sphere_from_wheels
         self._axes = six_axes(dt, wheel_limits, stage_limits)
         self._pace = Pace(wheels_from_sphere, self._axes)
         self._slowly = False  # on the way home
         self._dt = dt
-        self.state = State.PARKED
+        self.state = State.PARKED if pose.is_home else State.STOPPED
         self._pipeline = new_pipeline()
         self._cueing: CueSource | None = None
         self._unused_cueing: CueSource | None = self._pipeline.cueing
-        self._cue = _PARK_CUE
-        self._motion = self._pipeline.smoothing.step(_PARK_CUE)
+        self._cue = Cue(0.0, pose.q_WS, ZERO, pose.p_WS_W, ZERO, ZERO)
+        self._motion = self._pipeline.smoothing.step(self._cue)
         # rad, of the wheels: where this smoothing has begun, and with the last motion
-        self._first_angle, self.wheel_angle = ZERO, ZERO
+        self._first_angle = self.wheel_angle = pose.wheel_angle
         self._wheels = WheelSpeeds(0.0, ZERO, ZERO)  # with the last motion
         self._signs = SignContinuity(self._motion.q_WS)
         self._trajectory: Trajectory | GentleStop = HoldTrajectory(self._motion)
@@ -229,7 +231,8 @@ class PlatformController:
                 if before is State.STOPPED:
                     self._restart()
                 self._slowly = before is State.STOPPED
-                if not isinstance(self._trajectory, GentleStop):
+                stopping = before in (State.HOLDING, State.PARKING)
+                if not (stopping and isinstance(self._trajectory, GentleStop)):
                     self._trajectory = self._new_stop()
             case State.PARKED:
                 self._cueing, self._trajectory = None, HoldTrajectory(self._motion)
@@ -294,4 +297,4 @@ def _is_at_rest(motion: Motion) -> bool:
 
 
 def _is_parked(motion: Motion) -> bool:
-    return geodesic(motion.q_WS, IDENTITY) < AT_PARK and hypot(*motion.p_WS_W) < AT_PARK
+    return Pose(motion.q_WS, ZERO, motion.p_WS_W).is_home

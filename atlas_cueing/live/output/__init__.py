@@ -6,6 +6,7 @@
 from .foxglove_server import FoxgloveProcess
 from .hello import limits_hash
 from .operator_desk import OperatorDesk
+from .pose_process import PoseProcess
 from .receiver import SetPointReceiver
 from .recorder_process import RecorderProcess
 from .ring_recorder import Recorded, RingRecorder
@@ -16,6 +17,7 @@ from .status_sender import StatusSender
 __all__ = [
     "FoxgloveProcess",
     "OperatorDesk",
+    "PoseProcess",
     "Recorded",
     "RecorderProcess",
     "RingRecorder",

@@ -22,8 +22,8 @@ of the same order has them.
 |        |           | z up)                                                                       |
 |    112 | double[3] | stage velocity, m/s                                                         |
 |    136 | double[3] | stage acceleration, m/s^2                                                   |
-|    160 | double[3] | angle of wheels 1 to 3, rad, continuous: beyond a turn it goes on; zero at  |
-|        |           | the first set point of a session                                            |
+|    160 | double[3] | angle of wheels 1 to 3, rad, continuous: beyond a turn it goes on; begins |
+|        |           | at that of the pose from which the session starts, zero at home             |
 |    184 | uint8[16] | check of bytes 0 to 183                                                     |
 
 The checks are those of `sealing`. The key keeps out forged packets, and session and sequence
@@ -33,8 +33,9 @@ encrypted.
 
 Set point k of a run is due one period after number k - 1, through holds, faults and lateness. It is
 sent about lead + dt ahead (`loop`), at the latest before number k - 1 is due; so k packets lost
-in a row do no harm when lead >= k dt + transport. Angles and positions are what a drive follows;
-speeds and accelerations are their derivatives, to be fed forward. Jerk stays inside the platform
+in a row do no harm when lead >= k dt + transport. How a receiver answers is in `hello` and
+`status`. Angles and positions are what a drive follows; speeds and accelerations are their
+derivatives, to be fed forward. Jerk stays inside the platform
 file's limit between any two set points, and so do speed, acceleration and travel at them; a
 receiver holds the same limits by configuration. The state tells, and commands nothing.
 
@@ -56,9 +57,9 @@ What a receiver has to do (`receiver` does it, and is the reference):
 
 Clocks: due times are the sender's. On another machine they have to be translated by a clock that is
 kept within a millisecond (as by PTP). A receiver that is 3 ms off only shifts the motion; one that
-is ahead by more than the lead finds every set point late, and stops. A correction
-beside the schedule is a constant of the run: a receiver may add any constant to all due times, and
-count angles from any place where the platform stood.
+is ahead by more than the lead finds every set point late, and stops; its margins tell the loop. A
+receiver may add any constant to all due times of a session, and count angles from any place where
+the platform stood. Room for a correction of the motion beside the schedule is in `hello`.
 """
 
 from dataclasses import dataclass

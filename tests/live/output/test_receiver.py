@@ -201,6 +201,36 @@ class TestTheStop:
         assert receiver.report(START + 4 * STEP).margin == pytest.approx(0.013)
 
 
+class TestLostPackets:
+    """As many in a row as README says, for a transport of a millisecond; and not one more."""
+
+    @pytest.mark.parametrize(
+        ("rate", "lead_ms", "lost"),
+        [
+            *((100, 8, 0), (250, 8, 1), (500, 8, 3), (1000, 8, 7)),
+            *((100, 22, 2), (250, 22, 5), (500, 22, 10), (1000, 22, 21)),
+            *((100, 80, 7), (250, 80, 19), (500, 80, 39), (1000, 80, 79)),
+        ],
+    )
+    def test_so_many_are_survived(self, rate: int, lead_ms: int, lost: int) -> None:
+        assert self.stops(rate, lead_ms, lost) is False
+        assert self.stops(rate, lead_ms, lost + 1) is True
+
+    def stops(self, rate: int, lead_ms: int, lost: int) -> bool:
+        """Whether the drives begin to stop by themselves when so many in a row do not come."""
+        receiver, slot, gap = SetPointReceiver(WHEELS, STAGE), 10**9 // rate, rate // 2
+        for k in [*range(gap), gap + lost]:
+            sent = START + k * slot
+            arrived, due = sent + 1_000_000, sent + slot + lead_ms * 1_000_000
+            receiver.at(arrived - 1)
+            if receiver.state[0] == "stopping":
+                return True
+            at = moving(k * slot / STEP)  # type: ignore[arg-type]
+            refused = receiver.take(encode(7, k, 1e-9 * k * slot, due, 2, at), SENDER, arrived)
+            assert refused == "", (k, refused)
+        return False
+
+
 class TestTheCommand:
     def test_it_tells_rate_and_lateness(self) -> None:
         # a tenth of a second is sent, and up to three on a busy machine
