@@ -12,6 +12,7 @@ from ..recording import McapRecorder
 from ..run import Evaluation, LiveFigures, RunResult, build_pipeline, evaluate_log, open_recorder
 from ..scenario import Scenario
 from ..telemetry import LiveWriter, OperatorButtons, Ring, live_ring
+from ..wheels import Wheels
 from .clock import MonotonicClock
 from .control import Guard, LiveController, OperatorInputs, PlatformController, RunOutcome
 from .input import Source, no_vehicle
@@ -122,7 +123,7 @@ class LiveSession:
         self._warm_up()
         platform_controller = PlatformController(
             lambda: build_pipeline(self._scenario, self._dt),
-            platform.geometry().sphere_from_wheels,
+            Wheels(platform.geometry()).sphere_from_wheels,
             limits.travel,
             self._dt,
         )

@@ -63,7 +63,10 @@ def open_run(path: str | Path) -> RecordedRun:
     """
     log = open_log(path)
     flight = RunColumns.of(_even(log))
-    return RecordedRun(log, platform_of(log), flight)
+    platform = platform_of(log)
+    if len(platform.wheel) != 3:
+        raise LogError(f"{log.path}: its platform has {len(platform.wheel)} wheels, allowed: 3")
+    return RecordedRun(log, platform, flight)
 
 
 def open_log(path: str | Path) -> Log:
