@@ -165,7 +165,8 @@ def test_four_wheels(command: Command, tmp_path: Path, speed: object) -> None:
 def test_four_wheels_do_not_fly(command: Command, tmp_path: Path) -> None:
     (tmp_path / "four.toml").write_text(four_wheels(31.0))
     (tmp_path / "s.toml").write_text(
-        'name = "s"\nduration_s = 1.0\n[vehicle]\nscript = "c1722"\n[platform]\nfile = "four.toml"\n'
+        'name = "s"\nduration_s = 1.0\n[vehicle]\nscript = "c1722"\n'
+        '[platform]\nfile = "four.toml"\n'
     )
     ended = command("run", "s.toml")
     assert (ended.status, ended.out) == (2, "")
