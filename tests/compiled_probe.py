@@ -22,7 +22,7 @@ from atlas_cueing.live.control.command import Command
 from atlas_cueing.live.control.guard import Guard
 from atlas_cueing.run import run_scenario
 from atlas_cueing.scenario import load_platform, load_scenario
-from atlas_cueing.signals import Cue
+from atlas_cueing.signals import Cue, Motion
 from atlas_cueing.smoothing import Smoothing
 from atlas_cueing.wheels import Wheels
 
@@ -60,6 +60,22 @@ def flown(folder: Path) -> Iterator[tuple[str, str]]:
             log.name,
             f"{result.result} {result.ticks} {hashlib.sha256(log.read_bytes()).hexdigest()}",
         )
+
+
+def loaded() -> str:
+    """A hash of the loads of wild motions, tick by tick."""
+    randomly, total = random.Random(5), hashlib.sha256()
+    platform = load_platform("atlas-2.9m-halo")
+    per_tick, wheels = platform.load_model().per_tick(), Wheels(platform.geometry())
+    for k in range(TICKS):
+        vectors = [tuple(randomly.gauss(0.0, 3.0) for _ in range(3)) for _ in range(6)]
+        q = rotation.exp(vectors[0])  # type: ignore[arg-type]
+        motion = Motion(k / 120.0, q, *vectors[1:], (0.0, 0.0))  # type: ignore[arg-type]
+        found = per_tick.loads(motion, wheels.speeds(motion))
+        total.update(
+            repr((found.drive, found.normal, found.torque, found.power, found.use)).encode()
+        )
+    return total.hexdigest()
 
 
 def cues(randomly: random.Random) -> Iterator[Cue]:
@@ -122,5 +138,6 @@ if __name__ == "__main__":
         "code": Path(rotation.__file__).suffix,
         **dict(flown(Path(sys.argv[1]))),
         "smoothing": smoothed(),
+        "loads": loaded(),
     }
     sys.stdout.write(json.dumps(found))

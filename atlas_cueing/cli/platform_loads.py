@@ -9,16 +9,18 @@ if TYPE_CHECKING:
     from ..loads import Reserve
     from ..scenario import Platform
 
+_MOST_WITH_ROWS = 8  # wheels: there are 2^N combinations of rows
+
 
 def sizes(platform: "Platform") -> dict[str, Any]:
     """Radii, limits and travel of a platform by name, the unit in the name."""
-    wheels, stage = platform.wheel_limits, platform.stage_limits
+    wheels, stage = platform.limits_of_each_wheel(), platform.stage_limits
     return {
         "sphere_radius_m": platform.sphere.radius_m,
         "wheel_radius_m": tuple(wheel.radius_m for wheel in platform.wheel),
-        "wheel_speed_limit_rad_s": wheels.speed_rad_s,
-        "wheel_acceleration_limit_rad_s2": wheels.acceleration_rad_s2,
-        "wheel_jerk_limit_rad_s3": wheels.jerk_rad_s3,
+        "wheel_speed_limit_rad_s": wheels.speed,
+        "wheel_acceleration_limit_rad_s2": wheels.acceleration,
+        "wheel_jerk_limit_rad_s3": wheels.jerk,
         "stage_travel_m": stage.travel_m,
         "stage_speed_limit_m_s": stage.speed_m_s,
         "stage_acceleration_limit_m_s2": stage.acceleration_m_s2,
@@ -28,11 +30,13 @@ def sizes(platform: "Platform") -> dict[str, Any]:
 
 def row_figures(platform: "Platform") -> dict[str, Any]:
     """Effect of wheels with two rows of rollers; empty unless the file describes all of them."""
-    from ..wheels import row_effect
+    from ..wheels import row_effect, tilt
 
     rows = [wheel.rows for wheel in platform.wheel if wheel.rows]
     if len(rows) != len(platform.wheel) or not platform.geometry().slip_free:
         return {}
+    if len(rows) > _MOST_WITH_ROWS:
+        return {"row_tilt_rad": tuple(tilt(platform.sphere.radius_m, each) for each in rows)}
     effect = row_effect(platform.geometry(), rows)
     return {
         "row_tilt_rad": effect.tilt,

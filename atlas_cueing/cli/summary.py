@@ -1,6 +1,6 @@
 """The texts printed about a run and about a platform."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import isinf
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +10,6 @@ from ..wheels import headroom
 from .text import aligned, say
 
 if TYPE_CHECKING:  # loaded already when there is something to print
-    from ..rotation import Mat3, Vec3
     from ..run import LiveFigures, RunResult
     from ..scenario import Platform
 
@@ -162,7 +161,7 @@ def kinematics(platform: "Platform") -> dict[str, Any]:
     `sphere_from_wheels` is None for a singular geometry.
     """
     geometry = platform.geometry()
-    room = headroom(geometry, platform.wheel_limit_values())
+    room = headroom(geometry, platform.limits_of_each_wheel())
     return {
         "name": platform.name,
         "induced_rows": geometry.induced_rows,
@@ -180,7 +179,7 @@ def kinematics(platform: "Platform") -> dict[str, Any]:
 
 def platform_summary(figures: dict[str, Any]) -> str:
     """The text printed about a platform, from its figures by `kinematics`."""
-    inverse: Mat3 | None = figures["sphere_from_wheels"]
+    inverse: tuple[tuple[float, ...], ...] | None = figures["sphere_from_wheels"]
     numbers = [(name, _number(value)) for name, value in figures.items() if not _is_matrix(name)]
     return "\n".join(
         [
@@ -199,11 +198,11 @@ def _is_matrix(name: str) -> bool:
     return name in ("induced_rows", "wheels_from_sphere", "sphere_from_wheels")
 
 
-def _rows(matrix: "Mat3") -> list[str]:
+def _rows(matrix: Sequence[Sequence[float]]) -> list[str]:
     return [_row(row) for row in matrix]
 
 
-def _row(row: "Vec3") -> str:
+def _row(row: Sequence[float]) -> str:
     # Adding zero takes the sign off a negative zero.
     return "  " + " ".join(f"{x + 0.0:12.6f}" for x in row)
 

@@ -12,6 +12,7 @@ from ..recording import McapRecorder
 from ..run import Evaluation, LiveFigures, RunResult, build_pipeline, evaluate_log, open_recorder
 from ..scenario import Scenario
 from ..telemetry import HelperWatch, LiveWriter, OperatorButtons, Ring, live_ring
+from ..wheels import Wheels
 from .clock import MonotonicClock
 from .control import (
     DriveFeedback,
@@ -167,7 +168,7 @@ class LiveSession:
         if file is None:
             return None
         limits = platform.wheel_limit_values(), platform.stage_limit_values()
-        J = platform.geometry().sphere_from_wheels
+        J = Wheels(platform.geometry()).sphere_from_wheels
         return PoseProcess(file, platform.name, limits, J, self._options.pose)
 
     def _monitor(self, feedback: DriveFeedback | None) -> DriveMonitor | None:
@@ -181,11 +182,11 @@ class LiveSession:
         options, platform = self._options, self._scenario.platform
         limits = platform.stage_limit_values()
         self._warm_up()
-        geometry = platform.geometry()
+        wheels = Wheels(platform.geometry())
         platform_controller = PlatformController(
             lambda: build_pipeline(self._scenario, self._dt),
-            geometry.wheels_from_sphere,
-            geometry.sphere_from_wheels,
+            wheels.wheels_from_sphere,
+            wheels.sphere_from_wheels,
             platform.wheel_limit_values(),
             limits,
             self._dt,

@@ -8,6 +8,7 @@ from ..errors import InputError, LogError
 from ..recording import read_log
 from ..rotation import ZERO, Vec3
 from ..scenario import Platform
+from ..wheels import Wheels
 from .control.axis import six_axes
 from .control.command import Command
 from .control.pose import Pose, pose_after_stop
@@ -92,4 +93,4 @@ def _end_of_log(file: Path, platform: Platform) -> Pose:
     q_WS = (motion["q_ws_w"], motion["q_ws_x"], motion["q_ws_y"], motion["q_ws_z"])
     command = Command(0.0, speed, acceleration, p, v, a, ZERO)
     axes = six_axes(_NO_TICK, platform.wheel_limit_values(), platform.stage_limit_values())
-    return pose_after_stop(q_WS, command, axes, platform.geometry().sphere_from_wheels)
+    return pose_after_stop(q_WS, command, axes, Wheels(platform.geometry()).sphere_from_wheels)

@@ -74,7 +74,10 @@ def run_of(log: Log) -> RecordedRun:
             f" atlas-cueing recue {path} --set platform.preset=NAME -o NEW.mcap"
         )
     flight = RunColumns.of(_even(log))
-    return RecordedRun(log, platform_of(log), flight)
+    platform = platform_of(log)
+    if len(platform.wheel) != 3:
+        raise LogError(f"{log.path}: its platform has {len(platform.wheel)} wheels, allowed: 3")
+    return RecordedRun(log, platform, flight)
 
 
 def open_log(path: str | Path) -> Log:

@@ -19,7 +19,7 @@ def broken_promises(platform: Platform, found: Reserve | None = None) -> list[st
     """
     model = platform.load_model()
     found = found or reserve(model)
-    room = headroom(platform.geometry(), platform.wheel_limit_values())
+    room = headroom(platform.geometry(), platform.limits_of_each_wheel())
     promised = Reach(room.acceleration, room.worst_acceleration)
     lines = _at_rest(platform, found)
     stage = platform.stage_limits.acceleration_m_s2
@@ -29,7 +29,7 @@ def broken_promises(platform: Platform, found: Reserve | None = None) -> list[st
     if found.by_torque is not None:
         lines += _sphere(promised, found.by_torque, "the torque of a drive ends")
     motor, gear = model.drive.motor_speed, model.drive.gear
-    fastest = gear * max(platform.wheel_limits.speed_rad_s)
+    fastest = gear * max(platform.limits_of_each_wheel().speed)
     if motor is not None and fastest > motor:
         lines.append(
             f"wheel_limits.speed_rad_s needs {fastest:.4g} rad/s of a motor, which ends at"

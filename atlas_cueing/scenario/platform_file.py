@@ -1,5 +1,6 @@
 """The platform file: geometry, limits and where the rider's head is."""
 
+from dataclasses import dataclass
 from functools import cache, lru_cache
 from math import cos, radians
 from pathlib import Path
@@ -27,8 +28,10 @@ from .load_tables import (
     missing_keys,
 )
 from .tables import (
+    ONE_OR_EACH,
     ONE_OR_THREE,
     THREE,
+    WHEELS,
     Finite,
     ScenarioTable,
     check_text,
@@ -43,6 +46,7 @@ Length: TypeAlias = Annotated[float, number(0.001, 100.0)]  # m; from a bead to 
 # squares and quotients of these stay far from overflow
 Limit: TypeAlias = Annotated[float, number(1e-6, 1e6)]
 Limits: TypeAlias = Annotated[tuple[Limit, Limit, Limit], ONE_OR_THREE]
+LimitsOfWheels: TypeAlias = Annotated[tuple[Limit, ...], ONE_OR_EACH]
 
 _LONGEST_NAME = 100  # characters, and ...
 _LONGEST_NAME_BYTES = 200  # ... bytes in UTF-8: names of files, which it begins, end at 255
@@ -154,11 +158,20 @@ def _wheel(contact: Vec3, drive: Vec3, radius: float) -> OmniWheel:
 
 
 class WheelLimitsTable(ScenarioTable):
-    """`[wheel_limits]`: one number for all wheels, or one each."""
+    """`[wheel_limits]`: one number for all wheels, kept as three of them, or one each."""
 
-    speed_rad_s: Limits
-    acceleration_rad_s2: Limits
-    jerk_rad_s3: Limits
+    speed_rad_s: LimitsOfWheels
+    acceleration_rad_s2: LimitsOfWheels
+    jerk_rad_s3: LimitsOfWheels
+
+
+@dataclass(frozen=True, slots=True)
+class LimitsOfEach:
+    """Limits of each wheel, however many: speed rad/s, acceleration rad/s^2, jerk rad/s^3."""
+
+    speed: tuple[float, ...]
+    acceleration: tuple[float, ...]
+    jerk: tuple[float, ...]
 
 
 class StageLimitsTable(ScenarioTable):
@@ -184,7 +197,7 @@ class Platform(ScenarioTable):
 
     name: Annotated[str, NAME]
     sphere: SphereTable
-    wheel: Annotated[tuple[WheelTable, WheelTable, WheelTable], THREE]
+    wheel: Annotated[tuple[WheelTable, ...], WHEELS]
     wheel_limits: WheelLimitsTable
     stage_limits: StageLimitsTable
     rider: RiderTable = RiderTable()
@@ -193,6 +206,15 @@ class Platform(ScenarioTable):
     support: Annotated[tuple[SupportTable, ...], SEVERAL] | None = None
     traction: TractionTable | None = None
     part: Annotated[tuple[PartTable, ...], SEVERAL] | None = None
+
+    @field_validator("wheel_limits")
+    @classmethod
+    def _fit_the_wheels(cls, limits: WheelLimitsTable, info: ValidationInfo) -> WheelLimitsTable:
+        count = len(info.data.get("wheel", ()))
+        values = (limits.speed_rad_s, limits.acceleration_rad_s2, limits.jerk_rad_s3)
+        if count and not all(_of_each(limit, count) for limit in values):
+            raise refuse(f"a number, or a list of {count}: one for each wheel")
+        return limits
 
     @field_validator("rider")
     @classmethod
@@ -257,15 +279,27 @@ class Platform(ScenarioTable):
 
     def geometry(self) -> Geometry:
         """The kinematics; a singular one is refused by whoever needs the drive."""
-        first, second, third = self.wheel
-        return Geometry(
-            self.name, self.sphere.radius_m, (first.wheel(), second.wheel(), third.wheel())
-        )
+        wheels = tuple(wheel.wheel() for wheel in self.wheel)
+        return Geometry(self.name, self.sphere.radius_m, wheels)
 
     def wheel_limit_values(self) -> WheelLimits:
-        """Limits of the wheels, SI."""
+        """Limits of three wheels, SI. Raises InputError for any other number of them."""
+        each = self.limits_of_each_wheel()
+        return WheelLimits(*map(self._three, (each.speed, each.acceleration, each.jerk)))
+
+    def limits_of_each_wheel(self) -> LimitsOfEach:
+        """Limits of the wheels, however many, SI."""
         table = self.wheel_limits
-        return WheelLimits(table.speed_rad_s, table.acceleration_rad_s2, table.jerk_rad_s3)
+        values = (table.speed_rad_s, table.acceleration_rad_s2, table.jerk_rad_s3)
+        return LimitsOfEach(*(_of_each(limit, len(self.wheel)) for limit in values))
+
+    def _three(self, limits: tuple[float, ...]) -> Vec3:
+        if len(limits) != 3:
+            raise InputError(
+                f"platform {self.name!r} has {len(self.wheel)} wheels, allowed in a run: 3"
+            )
+        first, second, third = limits
+        return (first, second, third)
 
     def stage_limit_values(self) -> StageLimits:
         """Limits of the stage, SI."""
@@ -280,14 +314,21 @@ class Platform(ScenarioTable):
         return self.rider.head_m
 
 
+def _of_each(limits: tuple[float, ...], count: int) -> tuple[float, ...]:
+    """Limits of `count` wheels: one each, or one number, which three stand for; () for others."""
+    if len(limits) == count:
+        return limits
+    return limits[:1] * count if limits == limits[:1] * 3 else ()
+
+
 def without_room(platform: Platform, dt: float) -> list[tuple[tuple[str, str], float, str]]:
     """Limits that leave no room to move between two ticks of dt s.
 
     (key, value, what is allowed).
     """
-    wheels, stage = platform.wheel_limits, platform.stage_limits
+    wheels, stage = platform.limits_of_each_wheel(), platform.stage_limits
     rows = (
-        ("wheel_limits", "speed_rad_s", wheels.speed_rad_s, "jerk_rad_s3", wheels.jerk_rad_s3),
+        ("wheel_limits", "speed_rad_s", wheels.speed, "jerk_rad_s3", wheels.jerk),
         ("stage_limits", "speed_m_s", stage.speed_m_s, "jerk_m_s3", stage.jerk_m_s3),
         ("stage_limits", "travel_m", stage.travel_m, "acceleration_m_s2", stage.acceleration_m_s2),
     )

@@ -11,6 +11,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict
 from pydantic_core import PydanticCustomError
 
 _LARGEST_SHOWN = 1e15
+_MOST_WHEELS = 24
 
 
 class ScenarioTable(BaseModel):
@@ -92,6 +93,20 @@ def _one_or_three(value: Any) -> Any:
     return tuple(value)
 
 
+def _one_or_each(value: Any) -> Any:
+    if not isinstance(value, list | tuple):
+        return (value, value, value)
+    if not 3 <= len(value) <= _MOST_WHEELS:
+        raise refuse("a number, or a list of three, or of one for each wheel")
+    return tuple(value)
+
+
+def _wheels(value: Any) -> Any:
+    if not isinstance(value, list | tuple) or not 3 <= len(value) <= _MOST_WHEELS:
+        raise refuse(f"a list of three, or of up to {_MOST_WHEELS} (three in a run)")
+    return tuple(value)
+
+
 def check_text(value: Any, allowed: str) -> None:
     """Refuse what is no string; of a number the message says how to write it as a text."""
     if isinstance(value, str):
@@ -122,6 +137,8 @@ def text(allowed: str, accept: Callable[[str], bool]) -> BeforeValidator:
 
 
 THREE = BeforeValidator(_three)
+WHEELS = BeforeValidator(_wheels)
+ONE_OR_EACH = BeforeValidator(_one_or_each)  # one number stands for all wheels
 ONE_OR_THREE = BeforeValidator(_one_or_three)  # one number stands for all three
 
 Finite: TypeAlias = Annotated[float, BeforeValidator(_finite)]

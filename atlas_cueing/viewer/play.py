@@ -62,7 +62,7 @@ class PlayPage:
     """The page of a log: scene, play bar and plots."""
 
     def __init__(self, server: "ViserServer", platform: Platform, flight: RunColumns) -> None:
-        self._flight, self._motion = flight, RecordedMotion(flight)
+        self._flight, self._motion = flight, RecordedMotion(flight, platform)
         self._points = thinned(flight.time)
         self.head = PlayHead(float(flight.time[0]), float(flight.time[-1]))
         self._scene = Scene(server, platform, largest_g(flight.vehicle_f_B, flight.felt_f))

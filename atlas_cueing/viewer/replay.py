@@ -35,7 +35,7 @@ def write_replay(platform: Platform, flight: RunColumns, file: str | Path) -> No
     the file cannot be written.
     """
     check_viser("report")
-    motion, largest = RecordedMotion(flight), largest_g(flight.vehicle_f_B, flight.felt_f)
+    motion, largest = RecordedMotion(flight, platform), largest_g(flight.vehicle_f_B, flight.felt_f)
     shown, pause = frames(flight.time)
     server = open_server(0)
     try:

@@ -5,11 +5,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..rotation import exp, multiply
 from ..rotations import Array
 from ..scenario import Platform
 from .cabin_model import draw_cabin
+from .contact_arrows import ContactArrows
 from .forces import USUAL, ForceArrow, ForceScale
 from .stage_model import Stage, draw_stage
 from .wheel_models import draw_wheels
@@ -39,6 +41,8 @@ class Pose:
     p_W: position of the stage in W, m.
     wheel_angle: of each wheel, rad.
     vehicle_f, felt_f: specific force of pilot and rider, m/s^2, FRD.
+    contact_force, slipping: what each wheel pushes the sphere with (3, 3), N, W, and whether it
+        slips (3,); None where it is not known.
     """
 
     q_WS: Sequence[float] | Array
@@ -46,6 +50,8 @@ class Pose:
     wheel_angle: Sequence[float] | Array
     vehicle_f: Sequence[float] | Array
     felt_f: Sequence[float] | Array
+    contact_force: Array | None = None
+    slipping: NDArray[np.bool_] | None = None
 
     @property
     def finite(self) -> bool:
@@ -76,6 +82,9 @@ class Scene:
         self._stage: Stage = draw_stage(scene, platform)
         self._wheels = draw_wheels(scene, self._stage.path, platform)
         self._cabin = draw_cabin(scene, f"{self._stage.path}/cabin", platform)
+        self._contacts = (
+            ContactArrows(scene, self._stage.path, platform) if platform.has_loads else None
+        )
         head = f"{self._stage.path}/cabin/head"
         scene.add_frame(head, show_axes=False, position=platform.head_S)
         drawn = ForceScale(radius, largest)
@@ -101,6 +110,8 @@ class Scene:
             wheel.wxyz = multiply(at_rest, exp((0.0, 0.0, float(angle))))
         self._pilot.show(pose.vehicle_f)
         self._felt.show(pose.felt_f)
+        if self._contacts and pose.contact_force is not None and pose.slipping is not None:
+            self._contacts.show(pose.contact_force, pose.slipping)
 
 
 def _background() -> np.ndarray:

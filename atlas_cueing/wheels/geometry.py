@@ -1,4 +1,4 @@
-"""Where three omnidirectional wheels touch a sphere, and what follows from it (paper, section 3.1).
+"""Where omnidirectional wheels touch a sphere, and what follows from it (paper, section 3.1).
 
 | paper | here | unit |
 |---|---|---|
@@ -6,6 +6,9 @@
 | R-hat_i, v-hat_ai | `OmniWheel.contact`, `OmniWheel.drive`, unit vectors in W | - |
 | Omega-hat_i (Eq. 11) | `OmniWheel.induced`, row i of `Geometry.induced_rows` | - |
 | J (Eq. 18), J^-1 (Eq. 22) | `Geometry.sphere_from_wheels`, `Geometry.wheels_from_sphere` | - |
+
+The paper has three wheels, and so has what flies. With more of them J^-1 has a row for each, and J
+= B^+ diag(r) / R is the left inverse whose transpose gives the torques of the least drive forces.
 """
 
 from dataclasses import dataclass
@@ -13,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError, SlipConditionError
-from ..rotation import Mat3, Vec3, cross, dot, norm, scale, subtract
+from ..rotation import Vec3, cross, dot, norm, scale, subtract
 
 # A drive direction typed with three decimals is off its tangent by up to 1e-3; beyond that the file
 # means something else.
@@ -62,23 +65,28 @@ class OmniWheel:
 
 @dataclass(frozen=True, slots=True)
 class Geometry:
-    """A sphere of `sphere_radius` (m) on three wheels; `name` is for messages."""
+    """A sphere of `sphere_radius` (m) on three wheels or more; `name` is for messages."""
 
     name: str
     sphere_radius: float
-    wheels: tuple[OmniWheel, OmniWheel, OmniWheel]
+    wheels: tuple[OmniWheel, ...]
 
     @property
-    def induced_rows(self) -> Mat3:
-        """The three induced unit angular velocities as rows (Omega-hat transposed, Eq. 14)."""
-        first, second, third = self.wheels
-        return (first.induced, second.induced, third.induced)
+    def induced_rows(self) -> tuple[Vec3, ...]:
+        """The induced unit angular velocities as rows (Omega-hat transposed, Eq. 14)."""
+        return tuple(wheel.induced for wheel in self.wheels)
 
     @property
     def determinant(self) -> float:
-        """Determinant of the induced rows: 0 when singular, at most 1 in magnitude."""
-        a, b, c = self.induced_rows
-        return dot(a, cross(b, c))
+        """Determinant of the induced rows B of three wheels: 0 when singular, at most 1 in size.
+
+        Of more wheels it is sqrt(det(B^T B)), the same volume without a sign.
+        """
+        if len(self.wheels) == 3:
+            a, b, c = self.induced_rows
+            return dot(a, cross(b, c))
+        B = np.array(self.induced_rows)
+        return float(np.sqrt(max(np.linalg.det(B.T @ B), 0.0)))
 
     @property
     def condition_number(self) -> float:
@@ -94,15 +102,14 @@ class Geometry:
         return self.condition_number <= LARGEST_CONDITION_NUMBER
 
     @property
-    def wheels_from_sphere(self) -> Mat3:
+    def wheels_from_sphere(self) -> tuple[Vec3, ...]:
         """J^-1 (Eq. 22): wheel speeds from `w_WS_W`; it exists for singular geometries too."""
         R = self.sphere_radius
-        first, second, third = (scale(R / wheel.radius, wheel.induced) for wheel in self.wheels)
-        return (first, second, third)
+        return tuple(scale(R / wheel.radius, wheel.induced) for wheel in self.wheels)
 
     @property
-    def sphere_from_wheels(self) -> Mat3:
-        """J (Eq. 18): `w_WS_W` from wheel speeds.
+    def sphere_from_wheels(self) -> tuple[tuple[float, ...], ...]:
+        """J (Eq. 18): `w_WS_W` from wheel speeds, three rows.
 
         Raises SlipConditionError for a singular geometry.
         """
@@ -110,6 +117,10 @@ class Geometry:
             raise SlipConditionError(
                 self.name, self.determinant, self.condition_number, LARGEST_CONDITION_NUMBER
             )
+        if len(self.wheels) > 3:
+            radii = np.array([wheel.radius for wheel in self.wheels]) / self.sphere_radius
+            left = np.linalg.pinv(np.array(self.induced_rows)) * radii
+            return tuple(tuple(row) for row in left.tolist())
         a, b, c = self.induced_rows
         # The inverse of a matrix with rows a, b, c has the columns b x c, c x a, a x b over its
         # determinant.
@@ -118,8 +129,7 @@ class Geometry:
             scale(wheel.radius / (self.sphere_radius * self.determinant), column)
             for column, wheel in columns
         ]
-        x, y, z = zip(*scaled, strict=True)
-        return (x, y, z)
+        return tuple(zip(*scaled, strict=True))
 
 
 def _unit(name: str, v: Vec3) -> Vec3:

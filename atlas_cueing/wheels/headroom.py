@@ -1,9 +1,10 @@
 """How fast the sphere may turn, and speed up, inside the wheels' own limits."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
-from ..rotation import Mat3, Vec3, norm
-from ..signals import WheelLimits
+from ..rotation import Vec3, norm
 from .geometry import Geometry
 
 
@@ -20,7 +21,19 @@ class Headroom:
     worst_acceleration: float
 
 
-def headroom(geometry: Geometry, limits: WheelLimits) -> Headroom:
+class SpeedLimits(Protocol):
+    """Limits of each wheel, as in `signals.WheelLimits`: speed rad/s, acceleration rad/s^2."""
+
+    @property
+    def speed(self) -> Sequence[float]:
+        """Largest speed of each wheel."""
+
+    @property
+    def acceleration(self) -> Sequence[float]:
+        """Largest acceleration of each wheel."""
+
+
+def headroom(geometry: Geometry, limits: SpeedLimits) -> Headroom:
     """Give what `limits` leave of the sphere's motion; infinite where an axis turns no wheel."""
     rows = geometry.wheels_from_sphere
     return Headroom(
@@ -31,15 +44,15 @@ def headroom(geometry: Geometry, limits: WheelLimits) -> Headroom:
     )
 
 
-def _about_axes(rows: Mat3, limit: Vec3) -> Vec3:
+def _about_axes(rows: Sequence[Vec3], limit: Sequence[float]) -> Vec3:
     """Largest c with |row_i . (c axis)| <= limit_i for all wheels, for each axis."""
-    x, y, z = (min(_ratio(limit[i], abs(rows[i][axis])) for i in range(3)) for axis in range(3))
+    x, y, z = (min(map(_ratio, limit, (abs(row[axis]) for row in rows))) for axis in range(3))
     return (x, y, z)
 
 
-def _about_worst(rows: Mat3, limit: Vec3) -> float:
+def _about_worst(rows: Sequence[Vec3], limit: Sequence[float]) -> float:
     """Distance from the origin to the nearest pair of planes |row_i . Omega| = limit_i."""
-    return min(_ratio(limit[i], norm(rows[i])) for i in range(3))
+    return min(map(_ratio, limit, map(norm, rows)))
 
 
 def _ratio(limit: float, speed: float) -> float:

@@ -12,7 +12,8 @@ With the rows s of all wheels, R B_s Omega = diag(r_c) omega, so that
 
     Omega = C_s J omega,   C_s = B_s^-1 diag(r_c / r) B                                       (11)
 
-Eight constant matrices for three wheels: what a single-row model leaves out. To first order
+Eight constant matrices for three wheels (least squares for more): what a single-row model leaves
+out. To first order
 C_s - 1 = beta B^-1 diag(s) U; their mean is 1 + O(beta^2). That the offset between the rows is a
 significant error of the sphere's angular velocity, and an augmented Jacobian for it, is due to
 Weiss, Langlois & Hayes, Mech. Mach. Theory 44(2), 2009; the derivation here is our own.
@@ -26,7 +27,7 @@ from math import asin, cos, pi, sin, tau
 import numpy as np
 
 from ..errors import SlipConditionError
-from ..rotation import Vec3, add, scale
+from ..rotation import add, scale
 from ..rotations import Array, accumulated, exp, geodesic
 from .geometry import LARGEST_CONDITION_NUMBER, Geometry, OmniWheel
 
@@ -75,15 +76,15 @@ def row_correction(geometry: Geometry, rows: Sequence[RollerRows], sides: Sequen
     if not np.linalg.cond(B_s) <= LARGEST_CONDITION_NUMBER:
         raise SlipConditionError(
             geometry.name,
-            float(np.linalg.det(B_s)),
+            float(np.sqrt(max(np.linalg.det(B_s.T @ B_s), 0.0))),
             float(np.linalg.cond(B_s)),
             LARGEST_CONDITION_NUMBER,
         )
     ratio = [
         touch.radius / wheel.radius for touch, wheel in zip(touching, geometry.wheels, strict=True)
     ]
-    correction: Array = np.linalg.solve(B_s, np.array(ratio)[:, None] * B)
-    return correction
+    correction: Array = np.linalg.lstsq(B_s, np.array(ratio)[:, None] * B, rcond=None)[0]
+    return correction.astype(np.float64)
 
 
 def row_corrections(geometry: Geometry, rows: Sequence[RollerRows]) -> dict[tuple[int, ...], Array]:
@@ -104,7 +105,7 @@ class RowEffect:
     phase at the start.
     """
 
-    tilt: Vec3
+    tilt: tuple[float, ...]
     largest_correction: float
     mean_correction: float
     ripple: float
@@ -119,9 +120,8 @@ def row_effect(geometry: Geometry, rows: Sequence[RollerRows]) -> RowEffect:
     ripples, drifts = zip(
         *(_turn(geometry, rows, corrections, axis) for axis in _spread(_AXES)), strict=True
     )
-    x, y, z = (tilt(geometry.sphere_radius, each) for each in rows)
     return RowEffect(
-        tilt=(x, y, z),
+        tilt=tuple(tilt(geometry.sphere_radius, each) for each in rows),
         largest_correction=max(float(np.linalg.norm(error, 2)) for error in errors),
         mean_correction=float(np.linalg.norm(np.mean(errors, axis=0), 2)),
         ripple=float(np.sqrt(np.mean(np.square(ripples)))),

@@ -133,3 +133,50 @@ def test_double_rows(command: Command) -> None:
     assert 0.040 < table["row_ripple_rms"] < 0.049
     assert 0.2 < np.degrees(table["row_drift_mean_rad_per_turn"]) < 2.7
     assert "row_tilt_rad" not in json.loads(command("platform", "atlas-2.9m", "--json").out)
+
+
+def four_wheels(speed: object) -> str:
+    """Wheels at 40 deg on four sides, drives turned out of the horizontal."""
+    tables = ""
+    for k in range(4):
+        a = np.pi * k / 2.0
+        u = [float(0.77 * np.cos(a)), float(0.77 * np.sin(a)), -0.64]
+        along = np.array([np.sin(a), -np.cos(a), 0.0])
+        v = (along + np.cross(u, along)).tolist()
+        tables += f"[[wheel]]\ncontact = {u}\ndrive = {v}\nradius_m = 0.15\nfriction = 0.5\n"
+    rest = presets()["atlas-2.9m"].read_text().split("[wheel_limits]")[1]
+    limits = f"[wheel_limits]\nspeed_rad_s = {speed}\n" + rest.split("\n", 2)[2]
+    return f'name = "four"\n[sphere]\nradius_m = 1.45\n{tables}\n{limits}'
+
+
+@pytest.mark.parametrize("speed", [31.0, [31.0, 31.0, 31.0, 30.0]])
+def test_four_wheels(command: Command, tmp_path: Path, speed: object) -> None:
+    (tmp_path / "four.toml").write_text(four_wheels(speed))
+    table = json.loads(command("platform", "four.toml", "--loads", "--json").out)
+    inverse, J = np.array(table["wheels_from_sphere"]), np.array(table["sphere_from_wheels"])
+    assert inverse.shape == (4, 3)
+    np.testing.assert_allclose(J @ inverse, np.eye(3), atol=1e-12)
+    weight = np.sum(table["rest_normal_force_n"]) * 0.64 / np.hypot(0.77, 0.64)
+    assert weight == pytest.approx(490.0 * 9.80665)
+    assert len(table["wheel_space_inertia_kg_m2"]) == len(table["preload_gain"]) == 4
+    assert command("platform", "four.toml", "--loads").status == 0
+
+
+def test_four_wheels_do_not_fly(command: Command, tmp_path: Path) -> None:
+    (tmp_path / "four.toml").write_text(four_wheels(31.0))
+    (tmp_path / "s.toml").write_text(
+        'name = "s"\nduration_s = 1.0\n[vehicle]\nscript = "c1722"\n'
+        '[platform]\nfile = "four.toml"\n'
+    )
+    ended = command("run", "s.toml")
+    assert (ended.status, ended.out) == (2, "")
+    assert "platform 'four' has 4 wheels, allowed in a run: 3" in ended.err
+    assert not (tmp_path / "s.mcap").exists()
+
+
+def test_limits_of_other_wheels(command: Command, tmp_path: Path) -> None:
+    (tmp_path / "four.toml").write_text(four_wheels([31.0, 31.0, 30.0]))
+    ended = command("platform", "four.toml")
+    assert (ended.status, ended.out) == (2, "")
+    assert "wheel_limits" in ended.err
+    assert "a list of 4: one for each wheel" in ended.err
