@@ -39,6 +39,7 @@ DEFAULT_RATE_HZ = 120.0  # JSBSim's own step in FlightGear
 DEFAULT_HOLD_AFTER = 0.3
 
 _VERSION = Struct(">I")
+_HIGHEST_VERSION = 1000  # that FlightGear may come to; beyond it is no version at all (assumed)
 _SWAPPED = int.from_bytes(VERSION.to_bytes(4, "little"), "big")
 _FIELDS = Struct(">II3d4f8x3f32x3f")
 _ROUNDING = 1e-6  # rad; of a float near pi
@@ -167,6 +168,11 @@ def _check_kind(packet: bytes) -> None:
         raise PacketError(
             f"swapped bytes: version {VERSION} of the native FDM packet in little-endian, allowed:"
             " big-endian"
+        )
+    if version is not None and version > _HIGHEST_VERSION:
+        raise PacketError(
+            f"{len(packet)} bytes that begin with {packet[:4]!r}, allowed: a native FDM packet of"
+            f" version {VERSION} ({PACKET_BYTES} bytes)"
         )
     if version is not None and version != VERSION:
         raise PacketError(

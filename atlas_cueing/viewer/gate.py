@@ -1,6 +1,7 @@
 """A gate for viser's server, which has none.
 
-It keeps out requests of web pages of other hosts, and too much of anything. Browsers let any page
+It keeps out requests of web pages of other hosts, those of programs that do not know the page's
+address where that holds a token, and too much of anything. Browsers let any page
 of the web connect to any port of this machine, but send where the page is from (Origin; RFC 6455,
 10.2) and under which name it found the server (Host: another name than this machine's when a name
 server was made to point here). Both are checked before the handshake: later, messages of a client
@@ -12,6 +13,7 @@ that only the server itself can have.
 """
 
 import asyncio
+import hmac
 import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -34,15 +36,17 @@ Answer = Callable[[Any, Any], Any]
 
 
 @contextmanager
-def gated() -> Iterator[None]:
+def gated(token: str = "") -> Iterator[None]:
     """Give the servers that viser opens inside the gate.
+
+    token: first part of the path of every request; empty for any path.
 
     viser passes no options on to them, so that the function that opens them is replaced.
     """
     from websockets.asyncio import server
 
     serve: Any = server.serve
-    server.serve = _with_gate(serve, server.ServerConnection)  # type: ignore[assignment, misc]
+    server.serve = _with_gate(serve, server.ServerConnection, token)  # type: ignore[assignment, misc]
     try:
         yield
     finally:
@@ -57,7 +61,7 @@ def silence(loop: asyncio.AbstractEventLoop | None) -> None:
     )
 
 
-def _with_gate(serve: Callable[..., Any], connection: type[Any]) -> Callable[..., Any]:
+def _with_gate(serve: Callable[..., Any], connection: type[Any], token: str) -> Callable[..., Any]:
     class Counted(connection):  # type: ignore[misc]
         """A connection for which another may have to go."""
 
@@ -79,17 +83,25 @@ def _with_gate(serve: Callable[..., Any], connection: type[Any]) -> Callable[...
             "logger": _log,
         }
         return serve(
-            handler, host, port, process_request=_admitting(process_request), **options | ours
+            handler,
+            host,
+            port,
+            process_request=_admitting(process_request, token),
+            **options | ours,
         )
 
     return gated_serve
 
 
-def _admitting(process: Answer) -> Answer:
+def _admitting(process: Answer, token: str) -> Answer:
     def admit(connection: Any, request: Any) -> Any:
         """Return a refusal, or the server's own answer."""
         if not admits(request.headers.get_all("Host"), request.headers.get_all("Origin")):
             return connection.respond(403, "not for pages of other hosts\n")
+        path = inside(request.path, token)
+        if path is None:
+            return connection.respond(403, "the program printed the whole address of this page\n")
+        request.path = path
         if "Upgrade" in request.headers and len(connection.server.connections) >= MOST_CLIENTS:
             return connection.respond(503, "too many clients\n")
         try:
@@ -98,6 +110,16 @@ def _admitting(process: Answer) -> Answer:
             return connection.respond(404, "not found\n")
 
     return admit
+
+
+def inside(path: str, token: str) -> str | None:
+    """Return the path behind the token, all of it without one; None when the token is not there."""
+    if not token:
+        return path
+    first, _, rest = path.removeprefix("/").partition("/")
+    first, query, parameters = first.partition("?")
+    known = hmac.compare_digest(first.encode(errors="replace"), token.encode())
+    return f"/{rest}{query}{parameters}" if known else None
 
 
 def admits(hosts: list[str], origins: list[str]) -> bool:

@@ -26,14 +26,14 @@ def check_viser(extra: str) -> None:
         raise MissingExtraError("a 3D view", "viser", extra)
 
 
-def open_server(port: int, title: str | None = None) -> "ViserServer":
-    """Serve an empty page at `port`, 0 for any free one.
+def open_server(port: int, title: str | None = None, token: str = "") -> "ViserServer":
+    """Serve an empty page at `port`, 0 for any free one; with a token nowhere but below /TOKEN.
 
     Raises InputError when the port is in use.
     """
     from viser import ViserServer
 
-    with redirect_stdout(StringIO()), gated():  # a banner
+    with redirect_stdout(StringIO()), gated(token):  # a banner
         server = ViserServer(host=HOST, port=port, label=title and printable(title), verbose=False)
     if port not in (0, server.get_port()):  # viser takes the next one that is free
         close_server(server)

@@ -1,6 +1,7 @@
 """The process that shows a live run."""
 
 import os
+import secrets
 import sys
 import time
 from collections.abc import Callable, Collection, Mapping
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from .live_page import LivePage
 
 _REFRESH = 0.04  # s
+_TOKEN = 16  # bytes
 _NICENESS = 10  # the loop comes first
 _PATIENCE = 60.0  # s; viser starts in 0.3 s on an idle machine
 _CLOSING = 1.0  # s that the process may take to end
@@ -26,6 +28,9 @@ _CLOSING = 1.0  # s that the process may take to end
 
 class ViewerProcess:
     """A page that shows what comes through a ring, and takes the operator's buttons.
+
+    Its address holds a random token: a program of another user of this machine, or a page that got
+    round the gate, cannot press what it does not know.
 
     It has to be started before the loop: by `fork`, which shares the ring and what `press` writes
     to. It never holds the writer up, for it only reads. After the ring's END the page stays; the
@@ -55,12 +60,13 @@ class ViewerProcess:
         Raises InputError when viser is missing or the port is in use.
         """
         check_viser("live")
+        token = secrets.token_urlsafe(_TOKEN)
 
         def start() -> "tuple[LivePage, int]":
             """Open the page in the new process; give it and its port."""
             from .live_page import LivePage
 
-            server = open_server(port, title)
+            server = open_server(port, title, token)
             return LivePage(server, platform, press, allowed), server.get_port()
 
         here, there = Pipe(duplex=False)
@@ -75,7 +81,7 @@ class ViewerProcess:
         if not isinstance(answer, int):
             self.close()
             raise InputError(f"the view could not be started: {answer}")
-        self.url = f"http://{HOST}:{answer}"
+        self.url = f"http://{HOST}:{answer}/{token}"
 
     @property
     def pid(self) -> int:

@@ -63,7 +63,7 @@ def test_a_stopped_view_can_be_closed(platform: Platform) -> None:
 
 def test_a_port_in_use(platform: Platform) -> None:
     with ViewerProcess(live_ring(1.0, 300.0), platform, OperatorButtons().press, {}) as viewer:
-        port = int(viewer.url.rsplit(":", 1)[1])
+        port = int(viewer.url.rsplit(":", 1)[1].split("/")[0])
         with pytest.raises(InputError, match=f"the view could not be started: port {port}: in use"):
             ViewerProcess(live_ring(1.0, 300.0), platform, OperatorButtons().press, {}, port=port)
 

@@ -105,6 +105,8 @@ def test_hostile_clients_do_not_keep_the_operator_out() -> None:
             client.connect(str(place))
             client.sendall(b"x" * 50_000)  # no line, and it reads nothing
         assert sockets.ask(place, "state").startswith("ok: ")
+        clients[0].settimeout(30.0)
+        assert clients[0].recv(4) == b"no: ", "what is too long for a line is answered, not kept"
         for client in clients:
             client.close()
         assert sockets.ask(place, "state").startswith("ok: ")
