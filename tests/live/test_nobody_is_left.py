@@ -5,7 +5,7 @@ from math import inf
 
 import pytest
 
-from atlas_cueing.live.control.controller import HOME_AFTER
+from atlas_cueing.live.control.homecoming import HOME_AFTER
 from atlas_cueing.live.control.pose import Pose
 from atlas_cueing.live.control.state_machine import State
 from atlas_cueing.rotation import IDENTITY, exp, geodesic

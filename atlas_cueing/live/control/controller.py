@@ -20,12 +20,12 @@ from ..input.source import Source, SourceReading, no_vehicle
 from .command import Command, command_of, standstill
 from .drive_monitor import DriveMonitor
 from .guard import Guard
+from .homecoming import HOME_AFTER, Homecoming
 from .input_monitor import GOOD_TO_ENGAGE, InputMonitor
 from .platform_controller import PlatformController
 from .slot import Slot
 from .state_machine import BUTTON_EVENTS, Event, State
 
-HOME_AFTER = 5.0  # s of punctual slots after which a late run that carries somebody goes home
 _REMEDY = "what helps: --priority, a longer --lead, a lower --rate, fewer programs beside it"
 
 _FAULT_STATES = (State.FAULT_STOPPING, State.STOPPED)
@@ -44,8 +44,7 @@ class OperatorInputs:
     attended: an operator can engage and reset; otherwise the run engages by itself and is over when
         it has parked or stopped.
     losses: returns the helpers found dead since the last call: what to tell, and whether to park.
-    carries: there are drives. A run that stopped does not leave them, unattended: after lateness it
-        goes home by itself, after any other fault it stays where it is until it is asked to end.
+    carries: there are drives, which an unattended run does not leave (`homecoming`).
     """
 
     buttons: Callable[[], Iterable[str]] = tuple
@@ -105,9 +104,8 @@ class LiveController:
         self._last_motion = platform.motion
         self._last = standstill(platform.motion, platform.wheel_angle)
         guard.start(self._last)
-        self._late_only, self._homeward = False, platform.state is State.STOPPED
-        self._punctual_since: float | None = None  # s, while stopped
-        self._requests_then = 0  # when it stopped
+        unattended = operator.carries and not operator.attended
+        self._homecoming = Homecoming(unattended, platform.state is State.STOPPED)
         self._waiting: Tick | None = None  # made when it was too late for it; not gone out yet
         self._vehicle = no_vehicle(0.0)  # as last known
         self._changes: list[tuple[State, str]] = [(platform.state, "")]
@@ -131,14 +129,8 @@ class LiveController:
         if not (self.state in _REST_STATES and self._finishing and self._guard.standing):
             return False
         if self.state is State.STOPPED:
-            return not self._stays
+            return not self._homecoming.stays(self._requests)
         return self._drives is None or self._drives.settled
-
-    @property
-    def _stays(self) -> bool:
-        """Whether a stopped run goes on sending until it is asked to end (once more)."""
-        stays = self._operator.carries and not self._attended
-        return stays and self._requests <= self._requests_then
 
     @property
     def outcome(self) -> RunOutcome:
@@ -188,7 +180,9 @@ class LiveController:
         if not standing:
             self._check_lateness(late)
         if self.state is State.STOPPED:
-            self._go_home_when_punctual(slot.time, late)
+            good = late <= 0.0 and not (self._drives and self._drives.trouble)
+            if self._homecoming.sets_out(slot.time, good):
+                self._handle(Event.RESET, f"punctual for {HOME_AFTER:g} s: slowly home")
         if self.state in _FAULT_STATES:
             return None
         if self._finishing and self.state in _REST_STATES and not standing:
@@ -259,20 +253,7 @@ class LiveController:
         """Raise a fault when it is too late for the set point by `late` (s) of this slot."""
         if late > 0.0 and self.state not in _FAULT_STATES:
             self._fail(f"a set point came {1e3 * late:.1f} ms too late for the drives; {_REMEDY}")
-            self._late_only = True
-
-    def _go_home_when_punctual(self, time: float, late: float) -> None:
-        """Reset a run that carries somebody and that nothing but lateness has stopped."""
-        operator = self._operator
-        if self._attended or not operator.carries or not self._late_only:
-            return
-        if late > 0.0 or (self._drives and self._drives.trouble):
-            self._punctual_since = None
-        elif self._punctual_since is None:
-            self._punctual_since = time
-        elif time - self._punctual_since >= HOME_AFTER:
-            self._homeward = True
-            self._handle(Event.RESET, f"punctual for {HOME_AFTER:g} s: slowly home")
+            self._homecoming.note_fault(late=True)
 
     def _handle_operator(self, time: float) -> None:
         """Handle buttons, requests to end, and the end of the duration."""
@@ -303,6 +284,7 @@ class LiveController:
         if parks:
             self._failures.append(("viewer_died", text))
             self._attended, self._finishing = False, True
+            self._homecoming = Homecoming(self._operator.carries, stopped=False)
 
     def _waits_for_reset(self) -> bool:
         """Whether an operator is there, and nobody has asked to end since the fault."""
@@ -358,7 +340,8 @@ class LiveController:
         """Raise a fault, unless there is one already."""
         if self.state in _FAULT_STATES:
             return
-        self._faults, self._landing, self._late_only = self._faults + 1, False, False
+        self._faults, self._landing = self._faults + 1, False
+        self._homecoming.note_fault(late=False)
         self._requests_before_fault = self._requests
         self._failures.append(("fault", reason))
         self._handle(Event.FAULT, reason)
@@ -379,21 +362,16 @@ class LiveController:
         if event is Event.RESET:
             self._guard.start(standstill(self._last_motion, self._last.wheel_angle))
         if self.state is State.STOPPED:
-            self._punctual_since, self._requests_then = None, self._requests
-            # two requests have asked for this stop, and are all that is needed
-            self._requests_then -= self._requests > 1
+            self._homecoming.note_stop(self._requests)
         if not self._attended and self.state in _REST_STATES and not self._finishing:
             self._end_unattended()
 
     def _end_unattended(self) -> None:
         """End the run that has parked or stopped by itself, unless somebody would be left there."""
-        if self.state is State.STOPPED and self._operator.carries:
-            remedy = f"after {HOME_AFTER:g} punctual s" if self._late_only else "no more"
-            self._changes.append(
-                (self.state, f"set points go on; it moves {remedy}; Ctrl-C or SIGTERM ends the run")
-            )
+        if self.state is State.STOPPED and self._homecoming.advice:
+            self._changes.append((self.state, self._homecoming.advice))
             return
-        if self._input_lost and not self._homeward:
+        if self._input_lost and not self._homecoming.homeward:
             self._failures.append(("input_lost", "parked, since the input was lost"))
         self._finishing = True
 
