@@ -157,3 +157,12 @@ def test_states_in_the_log_have_numbers(tmp_path: Path) -> None:
     result = fly(tmp_path / "run.mcap", replace(OPTIONS, duration=0.2))
     numbers = set(read_log(result.log).column("/timing", "state").tolist())
     assert numbers <= set(map(float, range(len(LIVE_STATES))))
+
+
+def test_a_view_that_dies_ends_the_run_parked_and_the_log_tells(tmp_path: Path) -> None:
+    """An attended run, without a duration, of which nobody can press a button any more."""
+    session = LiveSession(scenario(), tmp_path / "run.mcap", LiveOptions(rate=100.0, attended=True))
+    session.helpers.add(lambda: False, "the view has died", parks=True)
+    result = session.run()
+    assert result.result in ("viewer_died", LATE)
+    assert "the view has died" in [status.reason for status in read_log(result.log).statuses]
