@@ -42,7 +42,7 @@ def test_a_declaration_is_whole(name: str) -> None:
     assert "_" not in metric.title
     assert metric.definition[0] == "9" or metric.definition[0].isupper()
     assert metric.definition.endswith(".")
-    assert "rad" not in metric.unit.shown or name.startswith("wheel_")
+    assert "rad" not in metric.unit.shown or name.startswith(("wheel_", "motor_"))
     assert all(
         definition is metric or definition.definition != metric.definition
         for definition in DECLARED.values()
@@ -66,6 +66,7 @@ def test_what_is_shown_where() -> None:
     assert list(dict.fromkeys(rows)) == [
         *("mismatch", "specific force", "force direction", "angular rate", "attitude"),
         *("net turns", "lag behind cue", "limited"),
+        *("traction", "preload needed", "wheel torque", "power", "energy"),
     ]
 
 

@@ -26,8 +26,8 @@ def test_the_plots_are_drawn_and_their_zoom_is_linked(
     write_page(review_log(flight), tmp_path / "page.html")
     opened = Opened(browser, (tmp_path / "page.html").as_uri())
     page = opened.page
-    page.wait_for_function("document.querySelectorAll('.js-plotly-plot').length == 4")
-    page.wait_for_function("document.querySelectorAll('.js-plotly-plot .main-svg').length >= 4")
+    page.wait_for_function("document.querySelectorAll('.js-plotly-plot').length == 6")
+    page.wait_for_function("document.querySelectorAll('.js-plotly-plot .main-svg').length >= 6")
     assert page.inner_text(".verdict") == "clean"
     lines = page.evaluate(
         "[...document.querySelectorAll('.js-plotly-plot')[0].querySelectorAll('path.js-line')].length"
