@@ -15,7 +15,7 @@ from atlas_cueing.signals import VehicleState
 
 from .test_perceptual import mirrored
 from .vehicles import LEVEL, level_turn, manoeuvring, standing, up_in_cabin, wild
-from .wild_rides import CueBound
+from .wild_rides import CueBound, ride
 
 ORGANS = HedgeParameters(
     replace(
@@ -119,3 +119,12 @@ def test_weightless_it_stands_or_turns_as_the_vehicle_does(parameters: HedgePara
         q_WS, w = method.step(vehicle)
     assert w == pytest.approx(ZERO, abs=1e-3)
     assert np.linalg.norm(q_WS) == pytest.approx(1.0, abs=1e-12)
+
+
+@BOTH
+def test_wild_rides_keep_every_bound_and_limit(parameters: HedgeParameters) -> None:
+    """A short form of `tools/wild_rides`, which rides as long as it is told."""
+    found = ride(1, 3000, parameters)
+    assert (found.felt_exceeded, found.loss_exceeded, found.violations) == (0, 0, ())
+    assert found.fullest > 0.2
+    assert found.use > 0.9

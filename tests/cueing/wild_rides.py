@@ -2,12 +2,21 @@
 
 import random
 from collections.abc import Iterator
+from dataclasses import dataclass
 from math import log, pi
 
-from atlas_cueing.cueing import HedgeParameters
+import numpy as np
+
+from atlas_cueing.cueing import HedgeParameters, StageParameters
 from atlas_cueing.cueing.committee.weights import WeightParameters, Weights
+from atlas_cueing.cueing.stage.stage_cueing import StageCueing
+from atlas_cueing.evaluation import BLOCK_TICKS, LimitUse, RunColumns, violations
+from atlas_cueing.recording import Log
 from atlas_cueing.rotation import Vec3, conjugate, exp, flip, norm, rotate, subtract
-from atlas_cueing.signals import Cue, VehicleState
+from atlas_cueing.scenario import load_platform
+from atlas_cueing.signals import TOPICS, Cue, Tick, VehicleState, tick_row
+from atlas_cueing.smoothing import Smoothing
+from atlas_cueing.wheels import Wheels
 
 from .test_felt_turn import Canals
 
@@ -103,3 +112,61 @@ class Regret:
             for each, start in zip(self._each, self._start, strict=True)
         )
         self.exceeded += self._whole > bound * (1.0 + 1e-6)
+
+
+@dataclass(frozen=True, slots=True)
+class Findings:
+    """What a wild ride found: ticks beyond a bound, and how near to one it came."""
+
+    ticks: int
+    felt_exceeded: int
+    fullest: float
+    loss_exceeded: int
+    violations: tuple[str, ...]
+    use: float
+
+
+def ride(seed: int, ticks: int, parameters: HedgeParameters | None = None) -> Findings:
+    """Ride wild states at 120 Hz on the 2.9 m sphere, with smoothing and wheels behind."""
+    dt, law = 1.0 / 120.0, parameters or HedgeParameters()
+    platform = load_platform("atlas-2.9m")
+    limits = platform.wheel_limit_values(), platform.stage_limit_values()
+    wheels = Wheels(platform.geometry())
+    smoothing = Smoothing(
+        dt=dt,
+        wheels_from_sphere=wheels.wheels_from_sphere,
+        sphere_from_wheels=wheels.sphere_from_wheels,
+        wheel_limits=limits[0],
+        stage_limits=limits[1],
+    )
+    bound, regret = CueBound(law, dt), Regret(dt, len(law.members()))
+    stage = StageCueing(dt, StageParameters(), limits[1], platform.head_S)
+    use = LimitUse(*limits)
+    rows: list[tuple[float, ...]] = []
+    for vehicle in wild_states(seed, ticks, dt):
+        cue = bound.step(vehicle)
+        regret.step(bound.losses)
+        p, v, a = stage.step(cue.q_WS, cue.w_WS_W, vehicle.f_B)
+        motion = smoothing.step(Cue(vehicle.time, cue.q_WS, cue.w_WS_W, p, v, a))
+        rows.append(tick_row(Tick(vehicle, cue, motion, wheels.speeds(motion))))
+        if len(rows) == BLOCK_TICKS:
+            use.add(_columns(rows))
+            rows = []
+    if rows:
+        use.add(_columns(rows))
+    figures = use.figures()
+    return Findings(
+        ticks,
+        bound.exceeded,
+        bound.fullest,
+        regret.exceeded,
+        tuple(violations(figures)),
+        max(figures.values()),
+    )
+
+
+def _columns(rows: list[tuple[float, ...]]) -> RunColumns:
+    """The rows as a run's columns; what is felt does not matter here."""
+    whole = np.zeros((len(rows), sum(len(topic.fields) for topic in TOPICS)))
+    whole[:, : len(rows[0])] = rows
+    return RunColumns.of(Log.of_ticks(whole))
