@@ -62,6 +62,7 @@ def test_what_runs_every_tick_is_compiled(monkeypatch: pytest.MonkeyPatch) -> No
     monkeypatch.chdir(PROJECT)
     modules = {Path(path).stem for path in build_compiled.compiled_modules()}
     assert {"rotation", "pipeline", "states", "blend", "sphere", "drive", "guard"} <= modules
+    assert {"observer", "canals", "committee", "member", "weights", "draw", "loss"} <= modules
     assert not {"__init__", "loop", "recorder", "plots"} & modules
 
 

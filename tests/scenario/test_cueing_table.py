@@ -55,7 +55,7 @@ def test_degrees_read_well() -> None:
         "force.align_rate_deg_s": 180.0,
         "perceptual.felt_rate_deg_s": 5.0,
         "perceptual.extra_rate_deg_s": 180.0,
-        "hedge.rate_unit_deg_s": 1.732050807569,
+        "hedge.rate_unit_deg_s": 1.732,
         "hedge.tilt_unit_deg": 1.0,
         "hedge.felt_rate_deg_s": 5.0,
         "hedge.extra_rate_deg_s": 180.0,

@@ -16,7 +16,7 @@ first alone. Below `hold` the force has no direction, and its term fades.
 # mypyc: runs every tick
 
 from dataclasses import dataclass
-from math import radians, sqrt
+from math import radians
 
 from ...perception import Observer
 from ...rotation import Vec3, angle_between, dot, norm, scale, subtract
@@ -29,7 +29,7 @@ class LossParameters:
     """Errors that weigh the same, m/s^2, rad/s and rad; judge: `observer` or `organs` alone."""
 
     force_unit: float = 0.17
-    rate_unit: float = radians(3.0) / sqrt(3.0)
+    rate_unit: float = radians(1.732)
     tilt_unit: float = radians(1.0)
     judge: str = "observer"
 

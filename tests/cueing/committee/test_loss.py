@@ -27,7 +27,7 @@ def test_it_is_the_square_of_the_legs_of_the_mismatch() -> None:
 
 
 def test_a_false_turn_counts_three_times() -> None:
-    assert pytest.approx(RATE_JND / sqrt(3.0)) == LOSS.rate_unit
+    assert pytest.approx(RATE_JND / sqrt(3.0), rel=1e-4) == LOSS.rate_unit
     assert LOSS.force_unit == FORCE_JND
     assert degrees(LOSS.tilt_unit) == 1.0
 
