@@ -71,6 +71,7 @@ def test_what_runs_every_tick_is_compiled(monkeypatch: pytest.MonkeyPatch) -> No
         "guard",
         "tick_loads",
     } <= modules
+    assert {"observer", "canals", "committee", "member", "weights", "draw", "loss"} <= modules
     assert not {"__init__", "loop", "recorder", "plots"} & modules
 
 

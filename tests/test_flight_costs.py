@@ -36,6 +36,7 @@ CUEING = {
     "blend": 146,
     "force": 134,
     "perceptual": 159,
+    "hedge": 832,
     "classical": 73,
     "still": 64,
 }

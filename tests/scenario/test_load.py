@@ -131,9 +131,9 @@ def test_a_wrong_key_is_not_left_behind(tmp_path: Path) -> None:
 def test_an_unknown_method_from_the_command_line(tmp_path: Path) -> None:
     allowed = ", ".join(sorted(METHODS))
     with pytest.raises(
-        ScenarioError, match=rf"^--set: cueing\.method = 'hexapod': allowed: {allowed}$"
+        ScenarioError, match=rf"^--set: cueing\.method = 'washout': allowed: {allowed}$"
     ):
-        load_scenario(written(tmp_path), ["cueing.method=hexapod"])
+        load_scenario(written(tmp_path), ["cueing.method=washout"])
 
 
 def test_inputs_from_the_command_line(tmp_path: Path) -> None:
