@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..perception import CANALS, OTOLITHS, Organ, Sensing
 from ..rotation import ZERO, Vec3
 from ..rotations import Array
 from ..signals import STANDARD_GRAVITY
@@ -11,7 +12,6 @@ from .correlation import Correlation
 from .cues import FORCE_THRESHOLD, RATE_THRESHOLD, CueCounter
 from .run_columns import RunColumns, mean_step
 from .statistics import Spread
-from .vestibular import CANALS, OTOLITHS, Organ, Sensing
 
 VARIATION = 0.01
 """Standard deviation below which a signal does not vary, as a share of its axis' threshold

@@ -4,11 +4,11 @@ from math import inf
 
 import numpy as np
 
+from ..perception import CANALS, Sensing
 from ..rotations import Array, length
 from .cues import FORCE_THRESHOLD, RATE_THRESHOLD
 from .run_columns import RunColumns, mean_step
 from .statistics import Magnitudes, WorstWindow, distance
-from .vestibular import CANALS, Sensing
 
 FORCE_JND = FORCE_THRESHOLD[0]
 """Difference of specific force that is just noticed, m/s^2 (`cues.FORCE_THRESHOLD`, x and y): in

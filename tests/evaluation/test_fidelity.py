@@ -6,7 +6,7 @@ import pytest
 from atlas_cueing.evaluation import gathered
 from atlas_cueing.evaluation.cues import FORCE_THRESHOLD, RATE_THRESHOLD
 from atlas_cueing.evaluation.fidelity import VARIATION, Fidelity
-from atlas_cueing.evaluation.vestibular import CANALS, OTOLITHS
+from atlas_cueing.perception.vestibular import CANALS, OTOLITHS
 
 from .flights import column, still
 

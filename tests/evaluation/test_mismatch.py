@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from atlas_cueing.evaluation import RunColumns, gathered
 from atlas_cueing.evaluation.mismatch import FORCE_JND, MOST, RATE_JND, Mismatch
 from atlas_cueing.evaluation.statistics import WorstWindow
-from atlas_cueing.evaluation.vestibular import CANALS
+from atlas_cueing.perception.vestibular import CANALS
 
 from .flights import G, any_flight, column, still
 

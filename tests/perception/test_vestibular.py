@@ -12,7 +12,7 @@ from hypothesis.extra.numpy import arrays
 from scipy import signal
 from scipy.integrate import odeint
 
-from atlas_cueing.evaluation.vestibular import CANALS, OTOLITHS, Organ, Sensing
+from atlas_cueing.perception.vestibular import CANALS, OTOLITHS, Organ, Sensing
 
 ROWS = json.loads((Path(__file__).parent.parent / "oracles" / "vestibular.json").read_text())[
     "rows"
