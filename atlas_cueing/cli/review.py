@@ -7,11 +7,13 @@ import typer
 
 from ..errors import LogError
 from .options import AsJson
+from .text import FIGURES
 
 if TYPE_CHECKING:
     from ..review import Review
 
-EPILOG = """
+EPILOG = (
+    """
 Examples:
 
   atlas-cueing review f16_rolls.mcap
@@ -22,6 +24,8 @@ Examples:
 
   atlas-cueing review f16_rolls.mcap --json
 """
+    + FIGURES
+)
 
 _SHOWN = 20  # findings printed; --json has all
 

@@ -29,6 +29,7 @@ from .engaged_segment import engaged_segment
 from .limit_use import LimitUse, by_limit, violations
 from .metric import Cell, Metric, Phrase, Shown
 from .metrics import DECLARED, Metrics, shown
+from .ratio import mismatch_ratio
 from .run_columns import BLOCK_TICKS, Columns, RunColumns, gathered
 
 __all__ = [
@@ -46,6 +47,7 @@ __all__ = [
     "by_limit",
     "engaged_segment",
     "gathered",
+    "mismatch_ratio",
     "shown",
     "violations",
 ]
