@@ -15,8 +15,8 @@ from atlas_cueing.scenario import load_scenario
 
 SCENARIOS = Path(__file__).parents[2] / "scenarios"
 REFERENCES = Path(__file__).with_name("figures.json")
-# s of each flight: every scenario is flown on every check, so that must be cheap. Of the flights that
-# are there to compare methods by, which are many, less: what they begin with is like the others'.
+# s of each flight: every scenario is flown on every check, so that must be cheap. Of the flights
+# to compare methods by, which are many, less: what they begin with is like what the others do.
 LONGEST, SHORTER = 12.0, 3.0
 
 # What a change of vehicle, cueing, smoothing or wheels cannot hide from; other metrics may come and

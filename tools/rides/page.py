@@ -2,6 +2,8 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 
+from atlas_cueing.evaluation import mismatch_ratio
+
 from .figures import NAMES
 from .results import FlightSet, by_the_rule
 
@@ -117,7 +119,10 @@ def _every(found: FlightSet, methods: Sequence[str]) -> str:
 
 def gaps(found: Mapping[str, tuple[float, float]], default: str) -> str:
     """The default beside `preview`, which knows the flight: M of both, and their ratio."""
-    rows = [[name, f"{m:.2f}", f"{p:.2f}", f"{m / p:.3f}"] for name, (m, p) in found.items()]
+    rows = [
+        [name, f"{m:.2f}", f"{p:.2f}", f"{mismatch_ratio(m, p):.3f}"]
+        for name, (m, p) in found.items()
+    ]
     return (
         "\n\n".join(
             [
