@@ -14,6 +14,7 @@ from .classical import CLASSICAL_STAGE, ClassicalParameters
 from .cueing import Cueing, build_cueing
 from .felt_turn import FeltTurnParameters
 from .force import ForceParameters
+from .hedge import HedgeParameters
 from .method import (
     CueSource,
     Method,
@@ -40,6 +41,7 @@ __all__ = [
     "Cueing",
     "FeltTurnParameters",
     "ForceParameters",
+    "HedgeParameters",
     "Method",
     "MethodParameters",
     "MpcParameters",

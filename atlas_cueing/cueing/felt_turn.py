@@ -6,13 +6,15 @@ and e the misalignment left, e' = w - z - y; for a constant w and s = w - z the 
 
     e' = s - y,   s' = -y / T
 
-and the integral of lambda^2 e^2 + y^2 is least for y = lambda e + k s (`lasting_gain`).
+and the integral of lambda^2 e^2 + y^2 is least for y = lambda e + k s (`lasting_gain`). Where w is
+expected to decay, w' = -w / tau, less of it is met beforehand: y = lambda e + k_w w - k z
+(`decaying_gain`).
 """
 
 # mypyc: runs every tick
 
 from dataclasses import dataclass
-from math import pi, radians, sqrt
+from math import inf, pi, radians, sqrt
 
 from ..rotation import ZERO, Vec3, add, norm, scale, subtract
 from .cabin import limited
@@ -26,6 +28,7 @@ class FeltTurnParameters:
 
     response: float = 1.0
     canals: float = 5.73
+    lasting: float = inf
     felt: float = radians(5.0)
     rate_gain: float = 0.2
     error_gain: float = 0.3
@@ -35,14 +38,7 @@ class FeltTurnParameters:
 
 FELT_TURN = FeltTurnParameters()
 
-FELT_TURN_KEYS = (
-    Parameter(
-        "response_rad_s",
-        "turn.response",
-        Range(0.01, 10.0),
-        "felt rate that an error is worth, for each rad of it",
-        "found; 0.7 to 2 made no difference",
-    ),
+FELT_BOUND_KEYS = (
     Parameter(
         "canals_s",
         "turn.canals",
@@ -86,6 +82,25 @@ FELT_TURN_KEYS = (
         "assumed",
     ),
 )
+"""Declares what bounds a turn of type FeltTurnParameters in a method's field `turn`."""
+
+FELT_TURN_KEYS = (
+    Parameter(
+        "response_rad_s",
+        "turn.response",
+        Range(0.01, 10.0),
+        "felt rate that an error is worth, for each rad of it",
+        "found; 0.7 to 2 made no difference",
+    ),
+    Parameter(
+        "lasting_s",
+        "turn.lasting",
+        Range(0.01, 1e6),
+        "time constant with which the rate that stays with the force is expected to decay",
+        "none: as if for ever",
+    ),
+    *FELT_BOUND_KEYS,
+)
 """Declares a method's field `turn` of type FeltTurnParameters."""
 
 
@@ -103,8 +118,29 @@ def lasting_gain(response: float, canals: float) -> float:
     return 2.0 * response / (sqrt(response * response + 2.0 * response / canals) + response)
 
 
+def decaying_gain(response: float, canals: float, lasting: float) -> float:
+    """Give the gain k_w of a rate w that decays with the time constant tau.
+
+    With w as a third state of the same problem, and a = 1 / tau,
+
+        k_w = lambda (a + k / T) / (a^2 + a (lambda + k / T) + lambda / T)
+
+    It is below `lasting_gain`, and that for tau without end.
+
+    Args:
+        response: lambda, rad/s.
+        canals: T, s.
+        lasting: tau, s.
+
+    """
+    k, a = lasting_gain(response, canals), 1.0 / lasting
+    if a == 0.0:
+        return k
+    return response * (a + k / canals) / (a * a + a * (response + k / canals) + response / canals)
+
+
 class FeltTurn:
-    """Extra rate z + y whose felt part y is lambda e + k (w - z) within its bound.
+    """Extra rate z + y whose felt part y is lambda e + k_w w - k z within its bound.
 
     The bound on the wish is felt + rate_gain |w_vehicle| + error_gain |e|. The filter keeps y in
     the convex hull of its wishes, so the bound holds for y as well, for any input: canals sense no
@@ -117,7 +153,10 @@ class FeltTurn:
         """Start at rest, with a rider used to rest; dt in s."""
         self._parameters = parameters
         self._half = 0.5 * dt / parameters.canals
-        self._lasting_gain = lasting_gain(parameters.response, parameters.canals)
+        self._used_to_gain = lasting_gain(parameters.response, parameters.canals)
+        self._lasting_gain = decaying_gain(
+            parameters.response, parameters.canals, parameters.lasting
+        )
         self._felt = DampedVector(1.0 / parameters.smoothing, dt, ZERO)
         self._used_to = ZERO
 
@@ -131,10 +170,9 @@ class FeltTurn:
 
         """
         parameters, before = self._parameters, self._felt.x
-        wish = add(
-            scale(parameters.response, error),
-            scale(self._lasting_gain, subtract(lasting, self._used_to)),
-        )
+        ahead = scale(self._lasting_gain, lasting)
+        back = scale(self._used_to_gain, self._used_to)
+        wish = add(scale(parameters.response, error), subtract(ahead, back))
         whole = limited(add(self._used_to, wish), parameters.extra)
         felt = self._felt.step(limited(subtract(whole, self._used_to), self._bound(error, vehicle)))
         self._used_to = add(self._used_to, scale(self._half, add(before, felt)))

@@ -10,6 +10,7 @@ _MODULES = (
     "blend",
     "force",
     "perceptual",
+    "hedge",
     "classical",
     "still",
     "preview",

@@ -32,14 +32,19 @@ from .parameter import Parameter, Range
 
 _UP: Vec3 = (0.0, 0.0, 1.0)
 
-HOLD = Parameter(
-    "hold_force_m_s2",
-    "hold",
-    Range(0.01, 100.0),
-    "the cabin follows the specific force fully from twice this magnitude on, and not below it",
-    "assumed",
-)
-"""Declares the field `hold` of a method's parameters, m/s^2."""
+
+def hold_of(field: str) -> Parameter:
+    """Declare the hold of a method's parameters, m/s^2, in the field `field` of them."""
+    return Parameter(
+        "hold_force_m_s2",
+        field,
+        Range(0.01, 100.0),
+        "the cabin follows the specific force fully from twice this magnitude on, and not below it",
+        "assumed",
+    )
+
+
+HOLD = hold_of("hold")
 
 
 def aligned(vehicle: VehicleState, hold: float) -> Quat:

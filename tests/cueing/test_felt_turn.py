@@ -10,7 +10,7 @@ from scipy.linalg import solve_continuous_are
 from scipy.signal import lsim
 
 from atlas_cueing.cueing import FeltTurnParameters
-from atlas_cueing.cueing.felt_turn import FeltTurn, lasting_gain
+from atlas_cueing.cueing.felt_turn import FeltTurn, decaying_gain, lasting_gain
 from atlas_cueing.rotation import ZERO, Vec3, add, norm, scale, subtract
 
 LAW = FeltTurnParameters()
@@ -54,6 +54,27 @@ def test_the_gains_are_those_of_the_riccati_equation(response: float, canals: fl
     riccati = solve_continuous_are(a, b, np.diag([response**2, 0.0]), np.eye(1))
     gains = -(b.T @ riccati)[0]
     assert gains == pytest.approx([response, lasting_gain(response, canals)], rel=1e-6)
+
+
+@pytest.mark.parametrize("lasting", [0.1, 1.0, 30.0])
+@pytest.mark.parametrize("response", [0.1, 1.0, 3.0])
+@pytest.mark.parametrize("canals", [0.5, 5.73, 1000.0])
+def test_the_gain_of_a_rate_that_decays_is_that_of_the_riccati_equation(
+    response: float, canals: float, lasting: float
+) -> None:
+    """States e, z and w; z and w cost nothing by themselves."""
+    a = np.array([[0.0, -1.0, 1.0], [0.0, 0.0, 0.0], [0.0, 0.0, -1.0 / lasting]])
+    b = np.array([[-1.0], [1.0 / canals], [0.0]])
+    riccati = solve_continuous_are(a, b, np.diag([response**2, 0.0, 0.0]), np.eye(1))
+    gains = -(b.T @ riccati)[0]
+    k, k_w = lasting_gain(response, canals), decaying_gain(response, canals, lasting)
+    assert gains == pytest.approx([response, -k, k_w], rel=1e-6)
+
+
+def test_the_gain_of_a_rate_that_decays_within_a_second() -> None:
+    assert decaying_gain(1.0, 5.73, 1.0) == pytest.approx(0.4972, abs=5e-5)
+    assert decaying_gain(1.0, 5.73, inf) == lasting_gain(1.0, 5.73)
+    assert decaying_gain(1.0, inf, 1.0) == 0.5  # lambda tau / (1 + lambda tau)
 
 
 def test_endless_canals_feel_all_of_a_lasting_rate() -> None:

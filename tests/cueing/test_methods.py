@@ -114,7 +114,8 @@ def test_the_reference_has_each_key_with_unit_range_default_and_source(method: M
         (line,) = (line for line in lines if line.startswith(f"{parameter.key} = "))
         for part in (parameter.unit.symbol, str(parameter.allowed), parameter.description):
             assert part in line
-        assert str(parameter.default(method.defaults)) in line
+        default = parameter.default(method.defaults)
+        assert ("(none)" if default is None else str(default)) in line
         assert line.endswith(parameter.source)
 
 
