@@ -96,6 +96,21 @@ def test_the_rule() -> None:
     assert by_the_rule(found, ["still", "x", "y", "z"]) == ["y", "x"]
 
 
+def test_a_dispute_is_told_where_both_have_an_opinion() -> None:
+    def of(m: float, tilt: float, turn: float) -> Figures:
+        return Figures(1.0, 1.0, 1.0, m, R=1.0, R3=1.0, worst=1.0, tilt=tilt, turn=turn)
+
+    one = of(10.0, 4.0, 9.0)
+    assert one.observed == pytest.approx(5.0)
+    flights = {
+        "agree": {"x": one, "y": of(11.0, 4.0, 12.0)},
+        "disagree": {"x": one, "y": of(11.0, 4.0, 6.0)},
+        "the other way": {"x": one, "y": of(9.0, 6.0, 9.0)},
+        "hardly": {"x": one, "y": of(10.4, 4.0, 6.0)},
+    }
+    assert FlightSet("a", "b", flights).disputed("x", "y") == ["disagree", "the other way"]
+
+
 def test_the_sets_are_bundled_flights_and_apart() -> None:
     names = {path.stem for path in SCENARIOS.glob("*.toml")}
     assert set(CONSTANTS) | set(UNSEEN) <= names

@@ -40,6 +40,11 @@ class Figures:
     tilt: float
     turn: float
 
+    @property
+    def observed(self) -> float:
+        """The observer's errors in just noticeable units as M has them: 1 deg and 3 deg/s."""
+        return hypot(self.tilt, self.turn / 3.0)
+
 
 NAMES = tuple(field.name for field in fields(Figures))
 RATIOS = ("R", "R3")

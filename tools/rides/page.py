@@ -68,6 +68,7 @@ def section(found: FlightSet, methods: Sequence[str], default: str) -> str:
         f"`{default}` beside the others (below 1 it is better; 90 % by bootstrap over flights; won"
         " and lost by more than 1 %):",
         _beside(found, [method for method in methods if method != default], default),
+        _disputes(found, [method for method in methods if method != default], default),
         "R by flight, the best bold:",
         _flights(found, methods),
         "<details><summary>Every figure of every flight</summary>\n",
@@ -97,6 +98,17 @@ def _beside(found: FlightSet, others: Sequence[str], default: str) -> str:
         cells = [f"{b['ratio']:.3f} ({b['low']:.3f} to {b['high']:.3f})" for b in beside.values()]
         rows.append([other, *cells, f"{beside['R']['wins']} and {beside['R']['losses']}"])
     return table([f"{default} over", "R", "R3", "flights won and lost by R"], rows)
+
+
+def _disputes(found: FlightSet, others: Sequence[str], default: str) -> str:
+    names = {other: found.disputed(default, other) for other in others}
+    told = [f"{other} on {', '.join(flights)}" for other, flights in names.items() if flights]
+    return (
+        f"M and the observer disagree (each by more than 5 %) about `{default}` against"
+        f" {'; '.join(told)}. There only riders can decide."
+        if told
+        else f"M and the observer nowhere disagree about `{default}` against any other."
+    )
 
 
 def _flights(found: FlightSet, methods: Sequence[str]) -> str:
@@ -136,3 +148,18 @@ def gaps(found: Mapping[str, tuple[float, float]], default: str) -> str:
         )
         + "\n"
     )
+
+
+RIDERS = """\
+## What riders would have to be asked
+
+Nobody has ridden any of this, and the figures leave `hedge` and `force` close together. Pilots of
+the aircraft, each in both rides of one flight, in a random order and not told which, eyes closed
+and with pictures:
+
+1. Which of the two was nearer to the aircraft, and by how much (0 to 10)?
+2. When you rolled into a turn: was the roll there, too small, or of the wrong kind?
+3. Was there a turn or a tilt that the aircraft would not have made? Point at it in the replay.
+4. Where was the worst moment, and was it the push in the seat or the turning that was wrong?
+5. How do you feel (0 to 20, misery), before, after each ride, and half an hour later?
+"""

@@ -36,6 +36,23 @@ class FlightSet:
             for name in ("R", "R3")
         }
 
+    def disputed(self, method: str, other: str) -> list[str]:
+        """Flights on which M and the observer disagree about which of two methods is better.
+
+        Both by more than 5 %: on the rest one of them has no opinion.
+        """
+        pairs = {flight: (f[method], f[other]) for flight, f in self.flights.items()}
+        return [
+            flight
+            for flight, (one, two) in pairs.items()
+            if _opinion(one.M, two.M) * _opinion(one.observed, two.observed) < 0
+        ]
+
+
+def _opinion(one: float, two: float) -> int:
+    """1 where the first is better by more than 5 %, -1 where the second is, 0 for neither."""
+    return (one < 0.95 * two) - (two < 0.95 * one)
+
 
 def flight_set(
     name: str,
@@ -73,6 +90,9 @@ def to_json(sets: Sequence[FlightSet], methods: Sequence[str], default: str) -> 
             "summary": {method: each.summary(method) for method in methods},
             "default_beside": {
                 other: each.beside(default, other) for other in methods if other != default
+            },
+            "disputed": {
+                other: each.disputed(default, other) for other in methods if other != default
             },
             "flights": {
                 flight: {method: asdict(f) for method, f in by_method.items()}
