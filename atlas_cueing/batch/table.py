@@ -8,6 +8,7 @@ from typing import Any, TypeAlias
 
 from ..evaluation import DECLARED, Metric
 from ..evaluation.units import COUNT, DURATION
+from .beside_still import mismatch_ratios
 from .fly_batch import Outcome
 
 Row: TypeAlias = Mapping[str, Any]  # column to value; a column that a run does not have is missing
@@ -28,9 +29,10 @@ def rows(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
     """Make a row for each run.
 
     It has id, file, scenario, vehicle, method, platform, the values that its sweep set, result, and
-    all figures.
+    all figures, and its mismatch_ratio where a run by `still` is there to compare it with.
     """
-    return [_row(outcome) for outcome in outcomes]
+    ratios = mismatch_ratios(outcomes)
+    return [_row(outcome) | ratios.get(outcome.run.id, {}) for outcome in outcomes]
 
 
 def _row(outcome: Outcome) -> dict[str, Any]:

@@ -23,7 +23,7 @@ def write_table(
     table = ordered(rows(outcomes), sort)
     results.write(SUMMARY, csv_of(table).encode(errors="replace"))
     page = overview(
-        table, swept_settings(outcomes), shown_metrics(sort), results.title, results.names()
+        table, swept_settings(outcomes), shown_metrics(table, sort), results.title, results.names()
     )
     results.write(INDEX, page.encode(errors="replace"))
     return table

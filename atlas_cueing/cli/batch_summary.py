@@ -36,11 +36,13 @@ def swept_settings(outcomes: "Sequence[Outcome]") -> list[str]:
     return list(dict.fromkeys(key for outcome in outcomes for key in outcome.run.settings))
 
 
-def shown_metrics(sort: str) -> list[str]:
-    """Names of the metrics in the table, the one by which it is sorted first."""
+def shown_metrics(table: Sequence[Mapping[str, Any]], sort: str) -> list[str]:
+    """Names of the metrics in the table that any run has, the one by which it is sorted first."""
     from ..evaluation import Shown, shown
 
-    return list(dict.fromkeys([sort, *(metric.name for metric in shown(Shown.BATCH))]))
+    names = [metric.name for metric in shown(Shown.BATCH)]
+    had = {name for row in table for name in row}
+    return list(dict.fromkeys([sort, *(name for name in names if name in had)]))
 
 
 def table_json(table: Sequence[Mapping[str, Any]], results: "ResultStore") -> str:
@@ -62,7 +64,7 @@ def table_text(
     from ..batch import METRIC_COLUMNS
 
     swept = [key for key in settings if len({repr(row.get(key)) for row in table}) > 1]
-    metrics = [METRIC_COLUMNS[name] for name in shown_metrics(sort)[:4]]
+    metrics = [METRIC_COLUMNS[name] for name in shown_metrics(table, sort)[:4]]
     heads = [
         "run",
         "result",

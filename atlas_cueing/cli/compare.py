@@ -7,17 +7,21 @@ import typer
 
 from ..printable import printable
 from .options import AsJson
+from .text import FIGURES
 
 if TYPE_CHECKING:
     from ..review import Comparison
 
-EPILOG = """
+EPILOG = (
+    """
 Examples:
 
   atlas-cueing compare blend.mcap attitude.mcap
 
   atlas-cueing compare blend.mcap attitude.mcap --html both.html
 """
+    + FIGURES
+)
 
 _LONGEST_NAME = 16  # characters of a column's head
 

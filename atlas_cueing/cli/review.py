@@ -7,12 +7,14 @@ import typer
 
 from ..errors import InputError, LogError
 from .options import AsJson
+from .text import FIGURES
 
 if TYPE_CHECKING:
     from ..recording import Log
     from ..review import Review
 
-EPILOG = """
+EPILOG = (
+    """
 Examples:
 
   atlas-cueing review f16_rolls.mcap
@@ -23,6 +25,8 @@ Examples:
 
   atlas-cueing review f16_rolls.mcap --json
 """
+    + FIGURES
+)
 
 _SHOWN = 20  # findings printed; --json has all
 

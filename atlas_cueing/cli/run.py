@@ -5,8 +5,10 @@ from pathlib import Path
 import typer
 
 from .options import AsJson, Force, NewLog, ScenarioFile, Settings, TrustModels
+from .text import FIGURES
 
-EPILOG = """
+EPILOG = (
+    """
 Examples:
 
   atlas-cueing run scenarios/f16_rolls.toml
@@ -15,6 +17,8 @@ Examples:
 
   atlas-cueing run flight.toml --set platform.preset=atlas-1.5m --set platform.wheel_limits.speed_rad_s=20 --json
 """  # noqa: E501 - commands to copy
+    + FIGURES
+)
 
 
 def run_command(

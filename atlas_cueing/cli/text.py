@@ -9,6 +9,21 @@ import typer
 
 from ..printable import printable
 
+FIGURES = """
+What the figures say of a ride, beside the limits that it keeps:
+
+  mismatch: how far it is from the flight, as far as a head feels it; 1 is just noticed, all the way
+
+  mismatch direction, rate: what turning the cabin can change; mismatch magnitude: what it cannot
+
+  mismatch worst 10 s: the part that riders remember
+
+  mismatch ratio: beside a cabin that does not turn, which has 1 (in compare and batch, with a ride by `still`)
+
+  perceived tilt, turn: a second opinion, by a model of perception
+"""  # noqa: E501 - a paragraph a line
+"""End of the help of commands that show figures; `evaluation.metric_table` has the definitions."""
+
 TRUST_MODELS = (  # help of --trust-models
     "Fly a script or an aircraft that lies beside the scenario; it is a program of whoever"
     " wrote it."

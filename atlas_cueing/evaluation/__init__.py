@@ -30,6 +30,7 @@ from .engaged_segment import engaged_segment
 from .limit_use import LimitUse, by_limit, violations
 from .metric import Cell, Metric, Phrase, Shown
 from .metrics import DECLARED, Metrics, shown
+from .ratio import mismatch_ratio
 from .run_columns import BLOCK_TICKS, Columns, RunColumns, gathered
 
 __all__ = [
@@ -49,6 +50,7 @@ __all__ = [
     "engaged_segment",
     "gathered",
     "load_violations",
+    "mismatch_ratio",
     "shown",
     "traction_lines",
     "violations",

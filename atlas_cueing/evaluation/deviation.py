@@ -5,7 +5,6 @@ import numpy as np
 from ..rotation import conjugate, from_euler, to_euler
 from ..rotations import Array, geodesic, length, multiply
 from ..signals import STANDARD_GRAVITY, direction_error
-from .cost import combined
 from .run_columns import RunColumns
 from .statistics import Magnitudes, Spread, distance
 
@@ -31,9 +30,9 @@ class Deviation:
     - attitude_..._rad: angle of the rotation from the vehicle's attitude to the cabin's, where the
       vehicle's attitude is q_WS = flip(heading^-1 q_NB) and the heading is that of the first tick.
 
-    The cost is made of the first and the third (`combined`). The extra rate is the rate error over
-    the ticks at which the wheels are not limited: what cueing turns the rider on its own account,
-    with what the actuators could not give left out; its quantile is that of 99 %.
+    The extra rate is the rate error over the ticks at which the wheels are not limited: what cueing
+    turns the rider on its own account, with what the actuators could not give left out; its
+    quantile is that of 99 %.
     """
 
     def __init__(self) -> None:
@@ -58,14 +57,13 @@ class Deviation:
         self._unlimited += unlimited.data
 
     def figures(self) -> dict[str, float]:
-        """Errors, cost and extra rate of all blocks so far."""
+        """Errors and extra rate of all blocks so far."""
         return {
             **self._force.figures("force", "m_s2"),
             **self._direction.figures("direction", "rad"),
             "direction_counted_share": self._direction.count / max(self._force.count, 1),
             **self._rate.figures("rate", "rad_s"),
             **self._attitude.figures("attitude", "rad"),
-            **combined(self._force.rms, self._rate.rms),
             **self._extra_rate(),
         }
 

@@ -17,6 +17,10 @@ VARIATION = 0.01
 """Standard deviation below which a signal does not vary, as a share of its axis' threshold
 (assumed)."""
 
+LEVEL = 3.0
+"""Angular frequency at which a threshold is carried through an organ, rad/s (assumed): both organs
+are level about it, with gains of 0.80 (otoliths) and 1.00 (canals)."""
+
 
 @dataclass(frozen=True, slots=True)
 class _Quantity:
@@ -60,10 +64,10 @@ class Fidelity:
       (`CueCounter`), of the signals less their values at rest upright.
 
     With perceived_force_x and so on both signals have gone through the otoliths, or the canals
-    (`vestibular`), at rest in the first tick's steady state before it. The thresholds are the same
-    there: they are the organs', at their output. perceived_force_..._m_s2 and
-    perceived_rate_..._rad_s are the length of the error vector behind the organs: rms, 95 %
-    quantile and maximum.
+    (`vestibular`), at rest in the first tick's steady state before it. The thresholds are carried
+    through them as well (`LEVEL`), so that both sides are in the organ's own unit.
+    perceived_force_..._m_s2 and perceived_rate_..._rad_s are the length of the error vector behind
+    the organs: rms, 95 % quantile and maximum.
 
     Ticks are taken as evenly spaced, as far apart as those of the first block are on average.
     """
@@ -93,8 +97,9 @@ class _Sensation:
 
     def __init__(self, quantity: _Quantity, dt: float) -> None:
         self._quantity = quantity
+        gain = float(np.abs(quantity.organ.response(LEVEL)))
         self._plain, self._perceived = (
-            [_Likeness(t, dt) for t in quantity.threshold] for _ in range(2)
+            [_Likeness(level * t, dt) for t in quantity.threshold] for level in (1.0, gain)
         )
         self._pilot, self._rider = (
             [Sensing(quantity.organ, dt) for _ in range(3)] for _ in range(2)

@@ -50,7 +50,8 @@ class Metric:
 
     quantity: the name without its unit, in snake case; unit: of the value as it is computed;
     definition: a sentence; shown: places beside those that show every metric;
-    summary: place in what `run` prints, None for none.
+    summary: place in what `run` prints, None for none; meaning: what it says of a ride, in words
+        for those who have not read the definition, "" for a figure whose name says it.
     """
 
     quantity: str
@@ -58,6 +59,7 @@ class Metric:
     definition: str
     shown: Shown = Shown.LISTS_ONLY
     summary: Cell | Phrase | None = None
+    meaning: str = ""
 
     @property
     def name(self) -> str:

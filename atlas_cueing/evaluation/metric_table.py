@@ -14,6 +14,7 @@ from .duration import Duration
 from .fidelity import Fidelity
 from .metric import Cell, Metric, Phrase, Shown
 from .mismatch import Mismatch
+from .perceived import Perceived
 from .run_columns import Figures
 from .units import (
     COUNT,
@@ -87,16 +88,33 @@ def _turns(axis: str, letter: str) -> Metric:
     )
 
 
-def _mismatch(leg: str, text: str, definition: str, shown: Shown = Shown.ERROR_HEADLINE) -> Metric:
+def _mismatch(
+    leg: str, text: str, meaning: str, definition: str, shown: Shown = Shown.ERROR_HEADLINE
+) -> Metric:
     name = f"mismatch_{leg}" if leg else "mismatch"
-    return Metric(name, JND, definition, shown, Phrase("mismatch", text))
+    return Metric(name, JND, definition, shown, Phrase("mismatch", text), meaning)
 
+
+RELATIVE = (
+    Metric(
+        "mismatch_ratio",
+        NUMBER,
+        "R = max(M, 1) / max(M_still, 1), with M_still the mismatch of the same flight by method "
+        "still on the same platform.",
+        Shown.ERROR_HEADLINE | Shown.BATCH,
+        meaning="how far that is beside not turning the cabin at all, which has 1: below 1 the "
+        "method has won something",
+    ),
+)
+"""Metrics that a run has only beside another run of the same flight."""
 
 METRICS: Mapping[type[Figures], tuple[Metric, ...]] = {
     Mismatch: (
         _mismatch(
             "",
             "{:.2f} JND",
+            "how far the ride is from the flight, as far as a head feels it: 1 is an error that is "
+            "just noticed, all the way",
             "M = sqrt(mean |f_r - f_p|^2 / (0.17 m/s2)^2 + mean |C(w_r - w_p)|^2 / (3 deg/s)^2): "
             "specific force f and angular rate w of rider less pilot, the rate behind the "
             "semicircular canals C, in just noticeable differences (Reid & Nahon 1985).",
@@ -105,24 +123,28 @@ METRICS: Mapping[type[Figures], tuple[Metric, ...]] = {
         _mismatch(
             "magnitude",
             "magnitude {:.2f}",
+            "its leg of the size of the force, which no turn of the cabin changes",
             "Leg of M by the size of the force, which no turn of the cabin changes: "
             "sqrt(mean (|f_r| - |f_p|)^2) / 0.17 m/s2.",
         ),
         _mismatch(
             "direction",
             "direction {:.2f}",
+            "its leg of the direction of the force, which the cabin can keep by turning",
             "Leg of M by the direction of the force, theta the angle between both: "
             "sqrt(mean 4 |f_r| |f_p| sin^2(theta / 2)) / 0.17 m/s2.",
         ),
         _mismatch(
             "rate",
             "rate {:.2f}",
+            "its leg of the turning that is felt and is not the vehicle's",
             "Leg of M by the angular rate behind the canals, 5.73 s with adaptation of 80 s "
             "(Telban & Cardullo 2005): sqrt(mean |C(w_r - w_p)|^2) / 3 deg/s.",
         ),
         _mismatch(
             "worst_10s",
             "worst 10 s {:.2f}",
+            "the worst ten seconds of it, which riders remember",
             "Largest M of any 10 s; of a shorter run its M.",
             Shown.ERROR_HEADLINE | Shown.BATCH,
         ),
@@ -157,9 +179,6 @@ METRICS: Mapping[type[Figures], tuple[Metric, ...]] = {
             Shown.ERROR_HEADLINE,
             "attitude",
         ),
-        Metric("cost", NUMBER, "Rms error of force and rate, in thresholds of a pilot."),
-        Metric("cost_force", NUMBER, "The part of the cost that is of specific force."),
-        Metric("cost_rate", NUMBER, "The part of the cost that is of angular rate."),
         *(
             Metric(
                 f"extra_rate_{statistic}",
@@ -190,6 +209,27 @@ METRICS: Mapping[type[Figures], tuple[Metric, ...]] = {
         *_axes("rate", "angular rate"),
         *_axes("perceived_force", "specific force behind the otoliths"),
         *_axes("perceived_rate", "angular rate behind the canals"),
+    ),
+    Perceived: (
+        Metric(
+            "perceived_tilt_rms",
+            RAD,
+            "Rms angle between the up that rider and pilot perceive, by an observer of tilt and "
+            "turn in the dark (Rader, Oman & Merfeld 2009).",
+            Shown.ERROR_HEADLINE | Shown.BATCH,
+            Phrase("perceived", "tilt {:.2f} deg", RAD.factor),
+            "a second opinion, by a model of perception: how far the tilt that the rider makes of "
+            "it is from the pilot's",
+        ),
+        Metric(
+            "perceived_turn_rms",
+            RAD_S,
+            "Rms difference of the angular rates that rider and pilot perceive, by the same "
+            "observer.",
+            Shown.ERROR_HEADLINE | Shown.BATCH,
+            Phrase("perceived", "turn {:.2f} deg/s", RAD_S.factor),
+            "likewise of the turning",
+        ),
     ),
     Coriolis: (
         Metric("coriolis_rms", RAD_S2, "Rms cross-coupling that a nod gives the rider."),

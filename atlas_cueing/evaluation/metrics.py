@@ -3,20 +3,27 @@
 from itertools import chain
 
 from .metric import Metric, Shown
-from .metric_table import CONSISTENCY, CONTACT_LOADS, METRICS
+from .metric_table import CONSISTENCY, CONTACT_LOADS, METRICS, RELATIVE
 from .run_columns import Figures, RunColumns
 
 DECLARED: dict[str, Metric] = {
     metric.name: metric
-    for metric in (*chain.from_iterable(METRICS.values()), *CONSISTENCY, *CONTACT_LOADS)
+    for metric in (
+        *RELATIVE,
+        *chain.from_iterable(METRICS.values()),
+        *CONSISTENCY,
+        *CONTACT_LOADS,
+    )
 }
-"""Every declared metric by its name, in the order in which a run gives them."""
+"""Every declared metric by its name: those that need another run first, then all others in the
+order in which a run gives them."""
 
 
 class Metrics:
     """All metrics of a run but those of `Consistency` and `ContactLoads`, which need the platform.
 
-    Every metric is a finite float when the columns are finite, and 0 for a run without ticks.
+    Every metric is a finite float when the columns are finite (and no wilder than
+    `perceived.LARGEST`), and 0 for a run without ticks.
     """
 
     def __init__(self) -> None:

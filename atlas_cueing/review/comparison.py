@@ -1,20 +1,26 @@
 """Reviews of several logs of one flight, side by side."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from ..errors import InputError
-from ..evaluation import DECLARED, Metric
+from ..evaluation import DECLARED, Metric, mismatch_ratio
 from .recorded_run import RecordedRun
 from .verdict import Review, review_log
+
+STILL = "still"  # the method that a mismatch ratio is to
 
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """Reviews of several logs, with a short name for each."""
+    """Reviews of several logs, with a short name for each.
+
+    Where one of them is by method `still`, the metrics of those of the same flight on the same
+    platform have their mismatch_ratio to it.
+    """
 
     names: tuple[str, ...]
     reviews: tuple[Review, ...]
@@ -66,7 +72,21 @@ def compare_logs(paths: Sequence[str | Path], *, different_flights: bool = False
                 f"{other.run.log.path} is another flight than {reviews[0].run.log.path}:"
                 f" {difference}; to compare them all the same use --different-flights"
             )
-    return Comparison(_names(reviews), reviews)
+    return Comparison(_names(reviews), tuple(_beside_still(each, reviews) for each in reviews))
+
+
+def _beside_still(ride: Review, reviews: Sequence[Review]) -> Review:
+    """The review with its mismatch ratio, as it is without a ride by `still` to compare it with."""
+    for mark in reviews:
+        if mark.run.log.metadata.get("method") == STILL and _same_but_the_cabin(ride.run, mark.run):
+            ratio = mismatch_ratio(ride.metrics["mismatch"], mark.metrics["mismatch"])
+            return replace(ride, metrics={**ride.metrics, "mismatch_ratio": ratio})
+    return ride
+
+
+def _same_but_the_cabin(one: RecordedRun, other: RecordedRun) -> bool:
+    """Whether both rode the same flight on the same platform."""
+    return one.platform == other.platform and not flights_differ(one, other)
 
 
 def flights_differ(one: RecordedRun, other: RecordedRun) -> str:

@@ -32,6 +32,8 @@ table { border-collapse: collapse; margin: 0.5em 0; }
 td, th { padding: 0.1em 0.9em 0.1em 0; text-align: left; }
 td.number, th { text-align: right; } td.number { font-variant-numeric: tabular-nums; }
 td:first-child { color: #5a6a7a; }
+dl.meanings { max-width: 34em; font-size: 0.9em; color: #5a6a7a; } dt { color: #1b2733; }
+dd { margin: 0 0 0.4em 1em; }
 li.finding { color: #c00000; } details { margin: 0.5em 0; }
 """
 
@@ -139,7 +141,17 @@ def _headlines(comparison: Comparison) -> str:
     """The metrics at the head of a comparison, one column a log."""
     return _columns(
         comparison.names, shown(Shown.HEADLINE), [each.metrics for each in comparison.reviews]
-    )
+    ) + _meanings([each.metrics for each in comparison.reviews])
+
+
+def _meanings(columns: Sequence[dict[str, float]]) -> str:
+    """What the figures that need it say of a ride, beside a verdict that is on limits alone."""
+    lines = [
+        f"<dt>{html_text(metric.title)}</dt><dd>{html_text(metric.meaning)}</dd>"
+        for metric in DECLARED.values()
+        if metric.meaning and _has(metric, columns)
+    ]
+    return f"<dl class='meanings'>{''.join(lines)}</dl>" if lines else ""
 
 
 def _header(found: Review) -> str:
@@ -160,7 +172,7 @@ def _header(found: Review) -> str:
     )
     return (
         f"<h1>{html_text(title)} {_verdict(found)}</h1><div class='columns'>{_table(rows)}"
-        f"{errors}{others}</div>"
+        f"{errors}{others}{_meanings([found.metrics])}</div>"
     )
 
 

@@ -46,4 +46,6 @@ def test_a_figure_is_the_number_in_its_unit(value: float) -> None:
 
 @pytest.mark.parametrize("value", [None, nan, inf, -inf])
 def test_no_number_is_a_dash(value: float | None) -> None:
-    assert Column.of_metric("cost").cell(value) == Column.of_key("cueing.gain").cell(value) == "–"
+    assert (
+        Column.of_metric("mismatch").cell(value) == Column.of_key("cueing.gain").cell(value) == "–"
+    )

@@ -1,7 +1,6 @@
 """The metrics again, from the columns of a whole run, by numpy and scipy.
 
-Nothing is shared with the classes that compute them in blocks but the names, the thresholds and the
-units of the cost.
+Nothing is shared with the classes that compute them in blocks but the names and the thresholds.
 """
 
 from collections.abc import Callable
@@ -69,12 +68,6 @@ def deviation(flight: RunColumns) -> Figures:
         **spread("rate", "rad_s", norm(flight.felt_w - flight.vehicle_w_B)),
         **spread("attitude", "rad", turn.magnitude()),
     }
-
-
-def cost(flight: RunColumns) -> Figures:
-    force = rms(norm(flight.felt_f - flight.vehicle_f_B)) / FORCE_UNIT
-    rate = rms(norm(flight.felt_w - flight.vehicle_w_B)) / RATE_UNIT
-    return {"cost": float(np.hypot(force, rate)), "cost_force": force, "cost_rate": rate}
 
 
 def mismatch(flight: RunColumns) -> Figures:
@@ -199,7 +192,8 @@ def likeness(flight: RunColumns) -> Figures:
         seen = [np.array([sensed(organ, x, dt) for x in side.T]).T for side in (pilot, rider)]
         errors |= spread(f"perceived_{name}", unit, norm(seen[1] - seen[0]))
         plain |= _axes(name, pilot, rider, threshold, dt)
-        behind |= _axes(f"perceived_{name}", seen[0], seen[1], threshold, dt)
+        level = np.abs(np.polyval(organ[0], 3.0j) / np.polyval(organ[1], 3.0j))
+        behind |= _axes(f"perceived_{name}", seen[0], seen[1], level * threshold, dt)
     return errors | plain | behind
 
 
@@ -225,13 +219,67 @@ def _axes(
     return figures
 
 
+def perceived(flight: RunColumns) -> Figures:
+    """Of ticks that are averaged by as many as fit into a sixtieth of a second."""
+    dt = float(np.mean(np.diff(flight.time)))
+    ticks = max(int(1.0 / 60.0 / dt + 1e-6), 1)
+    columns = (flight.vehicle_f_B, flight.vehicle_w_B, flight.felt_f, flight.felt_w)
+    steps = len(flight.time) // ticks
+    f_p, w_p, f_r, w_r = (
+        np.array([np.mean(x[k * ticks : (k + 1) * ticks], axis=0) for k in range(steps)])
+        for x in columns
+    )
+    (up_p, turn_p), (up_r, turn_r) = (
+        perception(f, w, ticks * dt) for f, w in ((f_p, w_p), (f_r, w_r))
+    )
+    tilt = np.arctan2(norm(np.cross(up_p, up_r)), np.sum(up_p * up_r, axis=1))
+    return {
+        "perceived_tilt_rms_rad": rms(tilt),
+        "perceived_turn_rms_rad_s": rms(norm(turn_p - turn_r)),
+    }
+
+
+def perception(f: np.ndarray, w: np.ndarray, dt: float) -> tuple[np.ndarray, np.ndarray]:
+    """Up and rate (n, 3) as Merfeld's observer has them, with the gains of Rader et al. (2009).
+
+    In Merfeld's own terms: gravito-inertial force -f, gravity down; rates by the trapezoid, the
+    turn to the force as it would go on from two steps.
+    """
+    Kw, Kfw, Kf, Ka, T = 3.0, 2.0, 2.0, -2.0, 5.73
+    canals = np.array([sensed(CANALS, x, dt) for x in w.T]).T
+    canals[0] = 0.0
+    down = -f[0] / norm(f[0])
+    store, turns = np.zeros(3), [np.zeros(3), np.zeros(3)]
+    ups, rates = [-down], [np.zeros(3)]
+    for k in range(1, len(f)):
+        ahead = turns[-1] + 0.5 * (turns[-1] - turns[-2])
+        drive = 0.5 * (canals[k] + canals[k - 1]) + Kfw / Kw * ahead
+        # T v' = Kw (c + v + Kfw / Kw e) / (1 + Kw) - v
+        before, a, b = store, Kw / (1.0 + Kw), dt / T
+        store = (before * (1.0 - 0.5 * b * (1.0 - a)) + b * a * drive) / (1.0 + 0.5 * b * (1.0 - a))
+        rate = drive + 0.5 * (before + store) + Kf * ahead
+        down = Rotation.from_rotvec(-dt * rate).apply(down)
+        down = down / norm(down)
+        gif = -f[k]
+        # a^ = Ka (gif - gif^), gif^ = G down - a^: solved for gif^
+        expected = (G * down - Ka * gif) / (1.0 - Ka)
+        axis = np.cross(gif, expected)
+        angle = np.arctan2(norm(axis), gif @ expected)
+        fading = min((norm(gif) / 0.063) ** 2, 1.0)
+        turns.append(fading * angle * axis / max(norm(axis), 1e-300))
+        ups.append(-down)
+        rates.append(canals[k] + store + Kfw / Kw * turns[-1])
+    return np.array(ups), np.array(rates)
+
+
 def duration(flight: RunColumns) -> Figures:
     return {"ticks": float(len(flight.time)), "duration_s": float(np.ptp(flight.time))}
 
 
 def metrics(flight: RunColumns) -> Figures:
+    """All but those of the observers (`perceived`)."""
     parts: tuple[Callable[[RunColumns], Figures], ...] = (
-        *(mismatch, deviation, cost, extra_rate),
+        *(mismatch, deviation, extra_rate),
         *(likeness, turning, effort, duration),
     )
     return {name: value for part in parts for name, value in part(flight).items()}

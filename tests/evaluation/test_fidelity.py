@@ -5,7 +5,7 @@ import pytest
 
 from atlas_cueing.evaluation import gathered
 from atlas_cueing.evaluation.cues import FORCE_THRESHOLD, RATE_THRESHOLD
-from atlas_cueing.evaluation.fidelity import VARIATION, Fidelity
+from atlas_cueing.evaluation.fidelity import LEVEL, VARIATION, Fidelity
 from atlas_cueing.perception.vestibular import CANALS, OTOLITHS
 
 from .flights import column, still
@@ -63,8 +63,9 @@ def test_a_platform_that_stands_still_misses_the_cue(name: str, axis: int) -> No
     assert missing[f"{start}_missing_share"] == pytest.approx(arc, abs=0.01)
     assert false[f"{start}_false_share"] == pytest.approx(arc, abs=0.01)
     assert missing[f"{start}_correlation"] == missing[f"{start}_delay_s"] == 0.0
-    # The organ passes on a part of it, less of a force than of a rate.
-    perceived = np.abs(ORGANS[name].response(W))
+    # The organ passes on a part of it, and of the threshold nearly the same part.
+    passed = np.abs(ORGANS[name].response([W, LEVEL]))
+    perceived = passed[0] / passed[1]
     arc = 1.0 - 2.0 / np.pi * np.arcsin(0.5 / perceived)
     assert missing[f"perceived_{start}_missing_share"] == pytest.approx(arc, abs=0.03)
 

@@ -50,7 +50,8 @@ def test_the_most_important_come_first() -> None:
         ("extra_rate_max_rad_s", "perceived_force_rms_m_s2"),
         ("perceived_rate_max_rad_s", "force_x_correlation"),
         ("rate_z_scaled_share", "perceived_force_x_correlation"),
-        ("perceived_rate_z_scaled_share", "coriolis_rms_rad_s2"),
+        ("perceived_rate_z_scaled_share", "perceived_tilt_rms_rad"),
+        ("perceived_turn_rms_rad_s", "coriolis_rms_rad_s2"),
         ("coriolis_rms_rad_s2", "turns_roll"),
         ("turns_yaw", "cue_lag_rms_rad"),
     ]:

@@ -60,12 +60,14 @@ def test_what_is_shown_where() -> None:
     limited = ["wheels_limited_share", "stage_limited_share"]
     assert {"turns_roll", "turns_pitch", "turns_yaw", *limited} <= set(names(Shown.RUN_HEADLINE))
     assert names(Shown.HEADLINE) == names(Shown.ERROR_HEADLINE) + names(Shown.RUN_HEADLINE)
+    perceived = {"mismatch", "perceived_tilt_rms_rad", "perceived_turn_rms_rad_s"}
+    assert perceived <= set(names(Shown.ERROR_HEADLINE)) & set(names(Shown.BATCH))
     batch = ["force_rms_m_s2", "direction_rms_rad", "rate_rms_rad_s", *limited]
     assert [name for name in names(Shown.BATCH) if name in batch] == batch
     rows = [metric.summary.row for metric in DECLARED.values() if metric.summary]
     assert list(dict.fromkeys(rows)) == [
         *("mismatch", "specific force", "force direction", "angular rate", "attitude"),
-        *("net turns", "lag behind cue", "limited"),
+        *("perceived", "net turns", "lag behind cue", "limited"),
         *("traction", "preload needed", "wheel torque", "power", "energy"),
     ]
 

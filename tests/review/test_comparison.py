@@ -78,3 +78,20 @@ def test_a_fault_in_one_is_a_fault_of_all(flight: Path, tmp_path: Path) -> None:
         flight, tmp_path / "bad.mcap", lambda c: c["/wheels w1_rad_s"].__setitem__(300, 9.0)
     )
     assert not compare_logs([flight, bad]).clean
+
+
+def test_a_ride_beside_one_that_stands_still(flight: Path, other: Path, tmp_path: Path) -> None:
+    """The ratio is in reviews of the same flight on the same platform, and only there."""
+    cue_again(flight, ["cueing.method=still"], tmp_path / "still.mcap")
+    cue_again(flight, ["platform.preset=atlas-1.5m"], tmp_path / "small.mcap")
+    shaken = corrupted(
+        flight, tmp_path / "shaken.mcap", lambda c: c["/vehicle fx_m_s2"].__setitem__(300, 1.0)
+    )
+    logs = [flight, other, tmp_path / "still.mcap", tmp_path / "small.mcap", shaken]
+    all_of_them = compare_logs(logs, different_flights=True).to_json()["metrics"]
+    *rides, small, elsewhere = all_of_them["mismatch_ratio"]  # type: ignore[index]
+    blend, attitude, still, *_ = all_of_them["mismatch"]  # type: ignore[index]
+    assert still > 1.0
+    assert rides == [max(blend, 1.0) / still, max(attitude, 1.0) / still, 1.0]
+    assert (small, elsewhere) == (None, None)
+    assert "mismatch_ratio" not in compare_logs([flight, other]).to_json()["metrics"]  # type: ignore[operator]

@@ -1,0 +1,99 @@
+"""How far what the rider perceives of tilt and turn is from what the pilot perceives."""
+
+from math import inf, nan
+
+import numpy as np
+
+from ..perception import Observer
+from ..rotation import Vec3
+from ..rotations import Array
+from .run_columns import RunColumns, mean_step
+from .statistics import Magnitudes, distance
+
+STEP = 1.0 / 60.0
+"""Time from one step of the observers to the next, s (assumed): a twentieth of the time
+in which a force draws `up`, 3 / (3 Kf + Kfw) = 0.375 s. Faster ticks are averaged, so that a run
+costs no more at 1 kHz than at 60 Hz."""
+
+MOST = 1 << 12
+"""Ticks in a step at most: `STEP` up to 245 kHz. It bounds the memory for a log with any step."""
+
+LARGEST = 1e9
+"""Force (m/s^2) and rate (rad/s) up to which there is a perception; beyond there is no number."""
+
+_HALF = 1e-6  # ticks: rounding of the step does not decide on the last tick of a step
+
+
+class Perceived:
+    """A second opinion on a ride: what an observer makes of it in the pilot's and the rider's head.
+
+    Both heads are those of `perception.Observer`, in the dark. With u the up that each perceives
+    and w^ the rate, in axes of its own head, FRD:
+
+    - perceived_tilt_rms_rad: rms of the angle between u of the rider and u of the pilot;
+    - perceived_turn_rms_rad_s: rms of |w^_r - w^_p|.
+
+    The observers go by steps of whole ticks, at most `STEP` unless a tick is longer, of whose
+    forces and rates they get the means; both begin at rest with the first. Ticks are taken as
+    evenly spaced, as far apart as those of the first block are on average. A run with numbers
+    beyond `LARGEST` has NaN.
+    """
+
+    def __init__(self) -> None:
+        """Begin without ticks."""
+        self._ticks, self._dt = 0, 0.0  # in a step; of a step, s
+        self._kept: Array = np.empty((0, 12))
+        self._heads: tuple[Observer, Observer] | None = None
+        self._tilt, self._turn = Magnitudes(), Magnitudes()
+        self._lost = False
+
+    def add(self, block: RunColumns) -> None:
+        """Take in the next ticks."""
+        if not self._ticks:
+            self._begin(mean_step(block.time))
+        pilot, rider = (block.vehicle_f_B, block.vehicle_w_B), (block.felt_f, block.felt_w)
+        motion = np.concatenate([self._kept, np.hstack([*pilot, *rider])])
+        whole = len(motion) - len(motion) % self._ticks
+        self._kept = motion[whole:]
+        means = np.mean(np.reshape(motion[:whole], (-1, self._ticks, 12)), axis=1)
+        self._lost = self._lost or not bool(np.all(np.abs(means) <= LARGEST))  # NaN is lost, too
+        if len(means) and not self._lost:
+            self._perceive(means)
+
+    def figures(self) -> dict[str, float]:
+        """Difference of the perceived tilts and turns, of all blocks so far."""
+        return {
+            "perceived_tilt_rms_rad": nan if self._lost else self._tilt.rms,
+            "perceived_turn_rms_rad_s": nan if self._lost else self._turn.rms,
+        }
+
+    def _begin(self, dt: float) -> None:
+        """Settle how many ticks of dt (s) a step has; times of a damaged log may be any."""
+        self._lost = not 0.0 < dt < inf
+        self._ticks = 1 if self._lost else max(int(min(STEP / dt + _HALF, MOST)), 1)
+        self._dt = self._ticks * dt
+
+    def _perceive(self, means: Array) -> None:
+        """Take the observers through the steps `means` (n, 12): f and w of pilot and of rider."""
+        up, turn = np.empty((2, len(means), 3)), np.empty((2, len(means), 3))
+        for i, row in enumerate(means.tolist()):
+            for head, observer in enumerate(self._stepped(row)):
+                up[head, i], turn[head, i] = observer.up, observer.rate
+        apart, together = distance(up[0], up[1]), distance(up[0], -up[1])
+        self._tilt.add(2.0 * np.arctan2(apart, together))
+        self._turn.add(distance(turn[0], turn[1]))
+
+    def _stepped(self, row: list[float]) -> tuple[Observer, Observer]:
+        """Give both observers a step on; the first one only starts them."""
+        f_p, w_p, f_r, w_r = (_vector(row[k : k + 3]) for k in (0, 3, 6, 9))
+        if self._heads is None:
+            self._heads = Observer(self._dt, f_p, w_p), Observer(self._dt, f_r, w_r)
+        else:
+            self._heads[0].step(f_p, w_p)
+            self._heads[1].step(f_r, w_r)
+        return self._heads
+
+
+def _vector(row: list[float]) -> Vec3:
+    x, y, z = row
+    return x, y, z
