@@ -10,8 +10,8 @@ import typer
 from ..printable import printable
 
 TRUST_MODELS = (  # help of --trust-models
-    "Fly a script or an aircraft that lies beside the scenario; it is a program of whoever"
-    " wrote it."
+    "Fly a script, an aircraft or a cueing method that lies beside the scenario; it is a program"
+    " of whoever wrote it."
 )
 
 
