@@ -4,8 +4,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..cueing.own_method import RESERVED
-from ..cueing.own_sources import is_file_reference
+from ..cueing.own.method import RESERVED
+from ..cueing.own.sources import is_file_reference
 from ..errors import InputError, MethodError, OutputError, ScenarioError
 from ..recording import Log, McapRecorder
 from ..run import METHOD_FAILED, open_recorder, prepare, ticks

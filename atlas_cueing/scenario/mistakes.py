@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from ..cueing.own_sources import installed_methods
+from ..cueing.own.sources import installed_methods
 from ..errors import Mistake
 from .tables import ScenarioTable, tables_in
 

@@ -27,17 +27,17 @@ from traceback import extract_tb
 from types import TracebackType
 from typing import Any, Final, Protocol, Self, cast
 
-from ..errors import InputError, MethodError
-from ..rotation import Quat, Vec3, continuous, normalise
-from ..signals import VehicleState
-from .method import Method
-from .own_parameters import Values, declared_parameters, validated
-from .parameter import Value
-from .stage.stage_parameters import FORCE_GAIN
+from ...errors import InputError, MethodError
+from ...rotation import Quat, Vec3, continuous, normalise
+from ...signals import VehicleState
+from ..method import Method
+from ..parameter import Value
+from ..stage.stage_parameters import FORCE_GAIN
+from .parameters import Values, declared_parameters, validated
 
 UNIT: Final = 1e-3  # how far the norm of a method's quaternion may be from 1; it is made 1 then
 LARGEST_RATE: Final = 1000.0  # rad/s, about each axis; beyond it felt forces lose all digits
-_HERE: Final = str(Path(__file__).parents[1])
+_HERE: Final = str(Path(__file__).parents[2])
 RESERVED: Final = ("method", "stage", FORCE_GAIN.key)  # keys of `[cueing]` with any method
 
 

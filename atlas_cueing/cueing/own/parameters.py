@@ -7,8 +7,8 @@ from typing import Any, Final, Literal, TypeAlias, get_args, get_origin, get_typ
 from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic.fields import FieldInfo
 
-from ..errors import InputError
-from .parameter import Choice, Parameter, Range, Switch, UnitKept
+from ...errors import InputError
+from ..parameter import Choice, Parameter, Range, Switch, UnitKept
 
 Values: TypeAlias = Any  # an object of the method's own class Parameters
 
@@ -24,8 +24,9 @@ def declared_parameters(model: Any, reserved: Collection[str]) -> tuple[Paramete
     Raises InputError for a class that is neither, a field of another type or without a default,
     and a reserved name.
     """
+    found = list(_fields(model))
     defaults = validated(model, {})
-    return tuple(_declared(*field, defaults, reserved) for field in _fields(model))
+    return tuple(_declared(*field, defaults, reserved) for field in found)
 
 
 def validated(model: Any, values: Mapping[str, Any]) -> Values:
