@@ -9,6 +9,7 @@
     |   `-- OutputError         the log cannot be written where it was asked for
     |-- PrintError              standard output takes no more; the recording is kept (status 1)
     |-- VehicleError            the vehicle failed in mid-run; earlier ticks are good (status 1)
+    |-- MethodError             an own cueing method failed in mid-run; likewise (status 1)
     |-- PlanningError           the trajectory generator refused a state; the certified stop follows
     |-- LogError                a log is damaged or not one of ours (status 1)
     |-- PacketError             a simulator's packet is damaged or not believable; it is dropped
@@ -110,6 +111,14 @@ class OutputError(InputError):
 
 class PrintError(AtlasError):
     """Standard output takes nothing more: its disk is full, or it is closed."""
+
+
+class MethodError(AtlasError):
+    """The cueing method `name` of somebody else failed at `time` (s); ticks before it are valid."""
+
+    def __init__(self, name: str, time: float, reason: str) -> None:
+        self.name, self.time, self.reason = name, time, reason
+        super().__init__(f"method {name!r} at {time:.6f} s: {reason}")
 
 
 class VehicleError(AtlasError):

@@ -3,26 +3,32 @@
 Python compiled_probe.py FOLDER, run with the build on the path.
 
 Whole flights (the bytes of their logs), smoothing under hostile cues and the guard under spoilt
-commands (every number).
+commands (every number). And what its types are to a Python user.
 """
 
 import hashlib
+import inspect
 import json
+import pickle
 import random
 import sys
 from collections.abc import Iterator
-from dataclasses import replace
+from copy import copy, deepcopy
+from dataclasses import fields, replace
 from math import inf, nan
 from pathlib import Path
+
+import numpy as np
 
 from atlas_cueing import rotation
 from atlas_cueing.cueing import CAUSAL_METHODS
 from atlas_cueing.errors import PlanningError
 from atlas_cueing.live.control.command import Command
 from atlas_cueing.live.control.guard import Guard
+from atlas_cueing.pipeline import Pipeline
 from atlas_cueing.run import run_scenario
 from atlas_cueing.scenario import load_platform, load_scenario
-from atlas_cueing.signals import Cue, Motion
+from atlas_cueing.signals import Cue, Motion, Tick, Timing, VehicleState, WheelSpeeds
 from atlas_cueing.smoothing import Smoothing
 from atlas_cueing.wheels import Wheels
 
@@ -133,8 +139,46 @@ def smoothed() -> tuple[str, str]:
     return motions.hexdigest(), commands.hexdigest()
 
 
+STATE = VehicleState(0.5, (1.0, 0.0, 0.0, 0.0), (0.1, 0.2, 0.3), (0.0, 0.0, -9.8))
+CUE = Cue(0.5, STATE.q_NB, *(((0.0, 1.0, 2.0),) * 4))
+MOTION = Motion(0.5, STATE.q_NB, *(((0.0, 1.0, 2.0),) * 5), (1.0, 0.0))
+WHEELS = WheelSpeeds(0.5, (1.0, 2.0, 3.0), (4.0, 5.0, 6.0))
+SIGNALS = (
+    STATE,
+    CUE,
+    MOTION,
+    WHEELS,
+    Tick(STATE, CUE, MOTION, WHEELS),
+    Timing(*map(float, range(9))),
+)
+DOCUMENTED = (Pipeline, Pipeline.step, rotation.rotate, Smoothing.step, Guard, *map(type, SIGNALS))
+
+
+def as_python() -> list[str]:
+    """What a Python user meets of signals and of what steps them: copies, words, signatures."""
+    found = []
+    for signal in SIGNALS:
+        copies = copy(signal), deepcopy(signal), pickle.loads(pickle.dumps(signal))  # noqa: S301
+        assert all(each == signal and type(each) is type(signal) for each in copies)
+        assert replace(signal) == signal
+        found.append(f"{signal} {[item.name for item in fields(signal)]}")
+    vectors = (np.array(vector) for vector in (STATE.q_NB, STATE.w_NB_B, STATE.f_B))
+    assert VehicleState(np.float64(0.5), *vectors) == STATE
+    assert VehicleState(0.5, [1, 0, 0, 0], [0.1, 0.2, 0.3], [0, 0, -9.8]) == STATE
+    for vectors in ((STATE.q_NB[:3], STATE.w_NB_B, STATE.f_B), (STATE.q_NB, [1.0], STATE.f_B)):
+        try:
+            VehicleState(0.5, *vectors)
+        except (TypeError, ValueError):
+            found.append("refused")
+    for thing in DOCUMENTED:
+        names = [n for n in inspect.signature(thing).parameters if n != "self"]
+        found.append(f"{thing.__name__}{names}: {inspect.getdoc(thing)}")
+    return found
+
+
 if __name__ == "__main__":
     found = {
+        "python": as_python(),
         "code": Path(rotation.__file__).suffix,
         **dict(flown(Path(sys.argv[1]))),
         "smoothing": smoothed(),

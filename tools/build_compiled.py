@@ -41,8 +41,10 @@ def obstacle() -> str:
 
 def extensions() -> list[Extension]:
     """Give the compiled modules as extensions of C: mypyc translates them now."""
+    from documented import keep_docstrings
     from mypyc.build import mypycify
 
+    keep_docstrings(compiled_modules())
     # Types are checked elsewhere, with everything installed; here little is.
     options = ["--config-file=", "--ignore-missing-imports", "--follow-imports=silent"]
     # A file for each module, so that the processors share the work.

@@ -39,10 +39,10 @@ def _mark(outcome: Outcome, marks: Sequence[Outcome]) -> float | None:
 
 
 def _mismatch(outcome: Outcome) -> float | None:
-    record = outcome.record
-    if record is None or record.result != "ok":
+    result = outcome.result
+    if result is None or result.result != "ok":
         return None
-    return record.evaluation.metrics.get("mismatch")
+    return result.evaluation.metrics.get("mismatch")
 
 
 def _flight(outcome: Outcome) -> _Flight:

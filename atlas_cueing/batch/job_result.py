@@ -8,12 +8,20 @@ from pathlib import Path
 from typing import Any, Self
 
 from ..atomic_file import write_whole
-from ..run import Evaluation, RunResult
+from ..run import METHOD_FAILED, Evaluation, RunResult
 from .store import ResultStore
 
 # The run itself ended so: the same again would end the same. Anything else (a full disk, a lost
 # worker) is flown again.
-FINAL = ("ok", "vehicle_failed", "failed", "crashed", "timed_out", "out_of_memory")
+FINAL = (
+    "ok",
+    "vehicle_failed",
+    METHOD_FAILED,
+    "failed",
+    "crashed",
+    "timed_out",
+    "out_of_memory",
+)
 # a stronger machine or a longer limit may do better: `--retry`
 _FIGURES = ("metrics", "limit_use")
 KILLED = ("crashed", "timed_out", "out_of_memory")

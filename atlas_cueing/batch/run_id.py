@@ -20,9 +20,12 @@ def run_id(scenario: Scenario) -> str:
     A function of the resolved scenario, platform, script and versions.
     """
     flight = scenario.flight
-    parts = _cut(scenario.name), _plain(flight.name)[:_LONGEST_NAME], scenario.file.cueing.method
+    method = scenario.file.cueing.declaration
+    names = _plain(flight.name)[:_LONGEST_NAME], _plain(method.name)[:_LONGEST_NAME]
+    parts = _cut(scenario.name), *names
+    own = {f"method/{key}": value.encode() for key, value in method.metadata().items()}
     large = {f"file/{name}": _file_hash(path) for name, path in flight.large_files().items()}
-    return f"{'-'.join(parts)}-{digest(scenario.attachments() | large)[:_DIGITS]}"
+    return f"{'-'.join(parts)}-{digest(scenario.attachments() | large | own)[:_DIGITS]}"
 
 
 def _file_hash(path: Path) -> bytes:

@@ -43,7 +43,7 @@ def _row(outcome: Outcome) -> dict[str, Any]:
         "source": run.source.name,
         "scenario": run.scenario.name,
         "vehicle": file.vehicle.flown,
-        "method": file.cueing.method,
+        "method": file.cueing.declaration.name,
         "platform": run.scenario.platform.name,
         **run.settings,
     }

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from .options import Force
+from .options import Force, TrustModels
 
 EPILOG = """
 Examples:
@@ -13,6 +13,8 @@ Examples:
   atlas-cueing recue f16_loop.mcap --set cueing.method=attitude -o attitude.mcap
 
   atlas-cueing recue f16_loop.mcap --set platform.preset=atlas-1.5m -o small.mcap
+
+  atlas-cueing recue f16_loop.mcap --set cueing.method=my_method.py:Mine --trust-models -o my.mcap
 """
 
 
@@ -27,6 +29,7 @@ def recue_command(
             help="Set any key of cueing, platform or recording; repeatable.",
         ),
     ] = None,
+    trust_models: TrustModels = False,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the review of the new log as one JSON object.")
     ] = False,
@@ -47,7 +50,7 @@ def recue_command(
     from .text import one_json
 
     new = check_output(output, inputs=[log], force=force, fresh=True)
-    recued(log, settings or (), new)
+    recued(log, settings or (), new, trust_models=trust_models)
     found = judged(new)
     typer.echo(one_json(found.to_json()) if as_json else review_summary(found))
     if not found.clean:

@@ -25,8 +25,8 @@ What the figures say of a ride, beside the limits that it keeps:
 """End of the help of commands that show figures; `evaluation.metric_table` has the definitions."""
 
 TRUST_MODELS = (  # help of --trust-models
-    "Fly a script or an aircraft that lies beside the scenario; it is a program of whoever"
-    " wrote it."
+    "Fly a script, an aircraft or a cueing method that lies beside the scenario; it is a program"
+    " of whoever wrote it."
 )
 
 

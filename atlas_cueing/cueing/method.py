@@ -63,6 +63,7 @@ class Method:
     defaults: its parameters, as they are where a file is silent.
     parameters: the keys that a user may set.
     stage: defaults of the stage beside it, which has the keys of `stage_parameters`.
+    files: of a method that is no part of this package, what goes into logs, by name.
     """
 
     name: str
@@ -70,11 +71,16 @@ class Method:
     defaults: MethodParameters
     parameters: tuple[Parameter, ...]
     stage: StageParameters = field(default_factory=StageParameters)
+    files: Mapping[str, bytes] = field(default_factory=dict)
 
     @property
     def needs_flight(self) -> bool:
         """Whether it has to know the whole flight before the first cue, so it cannot fly live."""
         return isinstance(self.defaults, PlanParameters)
+
+    def metadata(self) -> dict[str, str]:
+        """What a log says of the method beside its name; the package's own have its version."""
+        return {}
 
     def with_values(self, values: Mapping[str, Value | None]) -> MethodParameters:
         """Set the method's parameters from values by key, in the units of the file."""

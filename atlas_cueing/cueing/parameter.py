@@ -76,6 +76,14 @@ class Choice:
 
 
 @dataclass(frozen=True, slots=True)
+class Switch:
+    """True or false."""
+
+    def __str__(self) -> str:
+        return "true or false"
+
+
+@dataclass(frozen=True, slots=True)
 class Parameter:
     """One key of a file.
 
@@ -89,7 +97,7 @@ class Parameter:
 
     key: str
     field: str
-    allowed: Range | Choice
+    allowed: Range | Choice | Switch
     description: str
     source: str
 
@@ -126,6 +134,15 @@ class Parameter:
         if isinstance(value, tuple):
             return _vector(map(self.unit.to_si, value))
         return self.unit.to_si(value)
+
+
+class UnitKept(Parameter):
+    """A parameter whose value the code has in the unit of the key, as an own method does."""
+
+    @property
+    def unit(self) -> Unit:
+        """The unit that the key ends with, which nothing converts."""
+        return Unit(Parameter.unit.fget(self).symbol)  # type: ignore[attr-defined] # a property
 
 
 def with_values(

@@ -10,11 +10,12 @@ from .load_promises import broken_promises
 from .open_recorder import PACKAGES, open_recorder
 from .open_vehicle import flight_length, open_vehicle
 from .output import PAGE, check_output
-from .result import LiveFigures, RunResult
+from .result import METHOD_FAILED, LiveFigures, RunResult
 from .stop_request import StopRequest
 from .ticks import ticks
 
 __all__ = [
+    "METHOD_FAILED",
     "PACKAGES",
     "PAGE",
     "Evaluation",

@@ -7,7 +7,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import Final, TypeAlias
 
-from ..errors import OutputError, VehicleError
+from ..errors import MethodError, OutputError, VehicleError
 from ..pipeline import Pipeline
 from ..scenario import Scenario
 from ..signals import Sink, Tick, Vehicle, VehicleState, attitude_jump
@@ -15,7 +15,7 @@ from .build import prepare
 from .evaluate import Evaluator
 from .open_recorder import open_recorder
 from .open_vehicle import open_vehicle
-from .result import RunResult
+from .result import METHOD_FAILED, RunResult
 from .stop_request import StopRequest
 from .ticks import ticks
 
@@ -95,6 +95,8 @@ def _fly(vehicle: Vehicle, pipeline: Pipeline, sink: "_RunLog") -> _Outcome:
         interrupted = stop.requested
     except VehicleError as error:
         return _Outcome("vehicle_failed", str(error))
+    except MethodError as error:
+        return _Outcome(METHOD_FAILED, str(error))
     except KeyboardInterrupt:
         interrupted = True
     if interrupted:

@@ -56,7 +56,8 @@ def open_recorder(
 def _metadata(scenario: Scenario, flies: bool) -> dict[str, str]:
     return {
         "scenario": scenario.name,
-        "method": scenario.file.cueing.method,
+        "method": scenario.file.cueing.declaration.name,
+        **scenario.file.cueing.declaration.metadata(),
         "platform": scenario.platform.name,
         **{f"{name}_version": version(name) for name in PACKAGES if flies or name != _FLIES},
     }

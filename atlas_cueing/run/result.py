@@ -3,8 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Final
 
 from .evaluate import Evaluation
+
+METHOD_FAILED: Final = "method_failed"  # result of a run whose own cueing method failed
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,9 +33,9 @@ class LiveFigures:
 class RunResult:
     """How a run ended, where its log is, and what was found in it.
 
-    result: ok, vehicle_failed, interrupted or recording_failed; of a live run also input_lost,
-        viewer_died, fault, stopped, setpoints_unsent or recorder_died. `reason` says why it is not
-        ok.
+    result: ok, vehicle_failed, method_failed, interrupted or recording_failed; of a live run also
+        input_lost, viewer_died, fault, stopped, setpoints_unsent, pose_unkept or recorder_died.
+        `reason` says why it is not ok.
     log: the finished log; after recording_failed the .part with what could be written; None when
         nothing was written.
     ticks: number of ticks recorded. duration: time of the last one, s.

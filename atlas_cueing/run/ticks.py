@@ -23,6 +23,7 @@ def ticks(
         stop: asked before each step; when true, the flight ends there.
 
     Raises:
+        MethodError: an own cueing method failed.
         VehicleError: the vehicle failed. What it flew before has been yielded, as after any other
             error of the vehicle.
     """
@@ -31,9 +32,10 @@ def ticks(
         try:
             more = _fill(states, vehicle, stop)
         finally:  # an error waits until the ticks before it are taken
-            if states:
-                yield pipeline.block(states)
-        states = []
+            while states:
+                done = pipeline.block(states)
+                yield done
+                states = states[len(done) :]
 
 
 def _fill(states: list[VehicleState], vehicle: Vehicle, stop: Callable[[], bool]) -> bool:

@@ -2,7 +2,7 @@
 
 import os
 import pickle
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
@@ -10,12 +10,13 @@ from typing import Any, TypeVar
 from pydantic import ValidationError
 
 from ..cueing import DEFAULT_METHOD
-from ..errors import Mistake, ScenarioError
+from ..errors import InputError, Mistake, ScenarioError
 from ..printable import is_name
 from .cueing_table import TABLES
 from .jsbsim_table import unsettable_inputs
 from .mistakes import MOST_SHOWN, SET, FileNamer, Key, dotted, mistakes_of, more, nearest
 from .overrides import Overrides, apply_overrides, parse_overrides, with_own
+from .own_method_table import from_here, is_own, own_table
 from .platform_file import Platform, presets
 from .reading import TomlFiles, read_toml
 from .scenario import Scenario, ScenarioFile
@@ -37,7 +38,7 @@ def load_scenario(
     ScenarioError with every mistake of both files and of the overrides.
 
     trust_models: whether a script or aircraft beside the scenario may be flown; it can be read and
-        cued anew in any case.
+        cued anew in any case. A cueing method in a file beside it is not even read without.
     """
     if os.path.isdir(path):
         batch = f"to fly all scenarios in it: atlas-cueing batch {path} -o RESULTS"
@@ -102,7 +103,8 @@ def resolve(
         key: value for key, value in settings.items() if key[0] != "platform" or key[1:] not in deep
     }
     if ("cueing", "method") in flat:
-        _leave_method(data, flat["cueing", "method"])
+        flat["cueing", "method"] = from_here(flat["cueing", "method"], path.parent)
+        _leave_method(data, flat["cueing", "method"], path.parent, trust_models)
     mistakes = apply_overrides(data, flat)
     file, found = known.table(data, flat, path, trust_models)
     mistakes += found
@@ -152,7 +154,7 @@ def _read_table(
     data: dict[str, Any], overrides: Overrides, path: Path, trusted: bool
 ) -> tuple[ScenarioFile | None, list[Mistake]]:
     name_file = FileNamer(str(path), overrides)
-    file, mistakes = _validate(ScenarioFile, data, name_file, path.parent)
+    file, mistakes = _validate(ScenarioFile, data, name_file, path.parent, trusted=trusted)
     broken = _broken_rules(data, name_file)
     for key, value, wrong in unsettable_inputs(data, path.parent, trusted):
         broken.append(Mistake(name_file(key), dotted(key), value, wrong))
@@ -202,10 +204,16 @@ def _chosen_platform(
 
 
 def _validate(
-    table: type[T], data: dict[str, Any], name_file: FileNamer, folder: Path
+    table: type[T],
+    data: dict[str, Any],
+    name_file: FileNamer,
+    folder: Path,
+    *,
+    trusted: bool = False,
 ) -> tuple[T | None, list[Mistake]]:
+    context = {"folder": folder, "trusted": trusted}
     try:
-        return table.model_validate(data, context={"folder": folder}), []
+        return table.model_validate(data, context=context), []
     except ValidationError as error:
         return None, mistakes_of(error, table, data, name_file)
 
@@ -219,15 +227,22 @@ def _broken_rules(data: dict[str, Any], name_file: FileNamer) -> list[Mistake]:
     return [Mistake(name_file(key), dotted(key), "", allowed) for key, allowed in broken]
 
 
-def _leave_method(data: dict[str, Any], method: Any) -> None:
+def _leave_method(data: dict[str, Any], method: Any, folder: Path, trusted: bool) -> None:
     """Leave out the keys of the file's own method when another one is set."""
     table = data.get("cueing")
-    if not isinstance(table, dict) or not isinstance(method, str) or method not in TABLES:
+    if not isinstance(table, dict):
         return
-    old = TABLES.get(str(table.get("method", DEFAULT_METHOD)))
-    for key in [
-        key
-        for key in table
-        if old and key in old.model_fields and key not in TABLES[method].model_fields
-    ]:
+    old = _keys_of(table.get("method", DEFAULT_METHOD), folder, trusted)
+    new = _keys_of(method, folder, trusted)
+    for key in [key for key in table if new and key in old and key not in new]:
         del table[key]
+
+
+def _keys_of(method: Any, folder: Path, trusted: bool) -> Collection[str]:
+    """Keys of a method's table; none of what is no method, or cannot be had."""
+    if is_own(method):
+        try:
+            return own_table(method, folder, trusted).model_fields
+        except InputError:  # reported where the table is checked
+            return ()
+    return TABLES[method].model_fields if isinstance(method, str) and method in TABLES else ()

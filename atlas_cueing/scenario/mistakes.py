@@ -10,6 +10,7 @@ from typing import Any, TypeAlias
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
+from ..cueing.own.sources import installed_methods
 from ..errors import Mistake
 from .tables import ScenarioTable, tables_in
 
@@ -123,12 +124,21 @@ def _allowed(detail: ErrorDetails, table: type[ScenarioTable]) -> str:
     if kind == "missing":
         return "missing"
     if kind == "union_tag_invalid":
-        return nearest(str(context["tag"]), re.findall(r"'(\w+)'", context["expected_tags"]))
+        return nearest(str(context["tag"]), _methods(context["expected_tags"]))
     if kind in _KINDS:
         return f"allowed: {_KINDS[kind]}"
     if kind == "allowed":
         return f"allowed: {context['allowed']}"
     return detail["msg"]
+
+
+def _methods(tags: str) -> list[str]:
+    """List what a method may be: the tags of the package's tables, and in place of the last one.
+
+    That one stands for installed methods and for classes in files.
+    """
+    *own, _ = re.findall(r"'(\w+)'", tags)
+    return [*own, *installed_methods(), "FILE.py:CLASS"]
 
 
 def _known_keys(table: type[ScenarioTable], loc: Sequence[str | int]) -> list[str]:

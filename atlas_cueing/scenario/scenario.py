@@ -155,6 +155,7 @@ class Scenario:
         """Return the files beside the scenario's own that it is made of; they may be missing."""
         flight, platform = self._flight, self.file.platform.file
         files = [] if platform is None else [self.folder / platform]
+        files += self.file.cueing.files()
         return (*files, *flight.large_files().values(), *flight.files().values())
 
     @contextmanager
@@ -182,6 +183,7 @@ class Scenario:
         table = _plain(self.file)
         table["vehicle"] = self.file.vehicle.portable(self.folder)
         table["platform"] = {"file": "platform.toml"}
+        table["cueing"]["method"] = self.file.cueing.declaration.name
         return tomli_w.dumps(table)
 
     def platform_toml(self) -> str:
@@ -192,6 +194,7 @@ class Scenario:
         """Files that fly this scenario again when put into one folder: path in it to content."""
         files = _read_all(self._flight.files())
         tables = {"scenario.toml": self.scenario_toml(), "platform.toml": self.platform_toml()}
+        files |= self.file.cueing.declaration.files
         return files | {name: table.encode(errors="replace") for name, table in tables.items()}
 
 

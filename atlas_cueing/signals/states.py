@@ -12,10 +12,33 @@ checker, and at run time where compiled).
 
 # mypyc: runs every tick
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from ..rotation import Quat, Vec3
+
+if TYPE_CHECKING:
+    from ..rotations import Array
+
+Numbers: TypeAlias = "Sequence[float] | Array"
+Reduced: TypeAlias = tuple[Any, tuple[Any, ...]]
+
+
+def _four(q: Numbers) -> Quat:
+    """Give a quaternion as a tuple of floats; of a model it is one already."""
+    if isinstance(q, tuple) and len(q) == 4:
+        return q
+    w, x, y, z = q
+    return (float(w), float(x), float(y), float(z))
+
+
+def _three(v: Numbers) -> Vec3:
+    """Give a vector as a tuple of floats."""
+    if isinstance(v, tuple) and len(v) == 3:
+        return v
+    x, y, z = v
+    return (float(x), float(y), float(z))
 
 
 @dataclass(slots=True, init=False)
@@ -26,7 +49,7 @@ class VehicleState:
     FRD.
 
     The force is scaled by standard gravity over local gravity, so that a vehicle at rest shows
-    (0, 0, -9.80665) anywhere.
+    (0, 0, -9.80665) anywhere. Vectors may be given as tuples, lists or arrays.
     """
 
     time: Final[float]
@@ -34,11 +57,15 @@ class VehicleState:
     w_NB_B: Final[Vec3]
     f_B: Final[Vec3]
 
-    def __init__(self, time: float, q_NB: Quat, w_NB_B: Vec3, f_B: Vec3) -> None:
+    def __init__(self, time: float, q_NB: Numbers, w_NB_B: Numbers, f_B: Numbers) -> None:
         self.time = time
-        self.q_NB = q_NB
-        self.w_NB_B = w_NB_B
-        self.f_B = f_B
+        self.q_NB = _four(q_NB)
+        self.w_NB_B = _three(w_NB_B)
+        self.f_B = _three(f_B)
+
+    def __reduce__(self) -> Reduced:
+        """Copy and pickle by the arguments: a compiled class has no other way."""
+        return VehicleState, (self.time, self.q_NB, self.w_NB_B, self.f_B)
 
 
 @dataclass(slots=True, init=False)
@@ -65,6 +92,10 @@ class Cue:
         self.p_WS_W = p_WS_W
         self.v_WS_W = v_WS_W
         self.a_WS_W = a_WS_W
+
+    def __reduce__(self) -> Reduced:
+        """Copy and pickle by the arguments: a compiled class has no other way."""
+        return Cue, (self.time, self.q_WS, self.w_WS_W, self.p_WS_W, self.v_WS_W, self.a_WS_W)
 
 
 @dataclass(slots=True, init=False)
@@ -103,6 +134,19 @@ class Motion:
         self.a_WS_W = a_WS_W
         self.limited = limited
 
+    def __reduce__(self) -> Reduced:
+        """Copy and pickle by the arguments: a compiled class has no other way."""
+        return Motion, (
+            self.time,
+            self.q_WS,
+            self.w_WS_W,
+            self.alpha_WS_W,
+            self.p_WS_W,
+            self.v_WS_W,
+            self.a_WS_W,
+            self.limited,
+        )
+
 
 @dataclass(slots=True, init=False)
 class WheelSpeeds:
@@ -116,6 +160,10 @@ class WheelSpeeds:
         self.time = time
         self.speed = speed
         self.acceleration = acceleration
+
+    def __reduce__(self) -> Reduced:
+        """Copy and pickle by the arguments: a compiled class has no other way."""
+        return WheelSpeeds, (self.time, self.speed, self.acceleration)
 
 
 @dataclass(slots=True, init=False)
@@ -134,6 +182,10 @@ class Tick:
         self.cue = cue
         self.motion = motion
         self.wheels = wheels
+
+    def __reduce__(self) -> Reduced:
+        """Copy and pickle by the arguments: a compiled class has no other way."""
+        return Tick, (self.vehicle, self.cue, self.motion, self.wheels)
 
 
 @dataclass(slots=True, init=False)
@@ -182,3 +234,17 @@ class Timing:
         self.state = state
         self.wheel_difference = wheel_difference
         self.stage_difference = stage_difference
+
+    def __reduce__(self) -> Reduced:
+        """Copy and pickle by the arguments: a compiled class has no other way."""
+        return Timing, (
+            self.time,
+            self.elapsed,
+            self.lateness,
+            self.cost,
+            self.input_age,
+            self.missed,
+            self.state,
+            self.wheel_difference,
+            self.stage_difference,
+        )

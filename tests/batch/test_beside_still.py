@@ -45,9 +45,9 @@ def test_without_still_there_is_none(tmp_path: Path) -> None:
 
 def test_a_mark_that_failed_is_none(tmp_path: Path) -> None:
     blend, classical, still = outcomes(tmp_path, f"cueing.method = {METHODS}", 2.0, 8.0, 4.0)
-    failed = Outcome(still.run, replace(still.record, result="vehicle_failed"))  # type: ignore[type-var]
+    failed = Outcome(still.run, replace(still.result, result="vehicle_failed"))  # type: ignore[type-var]
     assert ratios([blend, classical, failed, Outcome(still.run, None)]) == [None] * 4
-    failed = Outcome(blend.run, replace(blend.record, result="vehicle_failed"))  # type: ignore[type-var]
+    failed = Outcome(blend.run, replace(blend.result, result="vehicle_failed"))  # type: ignore[type-var]
     assert ratios([failed, classical, still]) == [None, 2.0, 1.0]
 
 

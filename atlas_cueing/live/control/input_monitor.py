@@ -84,7 +84,7 @@ class InputMonitor:
         """
         remark = reading.remark
         if reading.age <= reading.patience:
-            if remark == self._noted or state not in (*_TRACKING, State.WAITING):
+            if remark == self._noted or not (state in _TRACKING or state is State.WAITING):
                 return ""
             self._noted = remark or self._noted
             return remark
