@@ -104,6 +104,27 @@ def test_waiting_without_a_view_has_nobody_to_wait_for(command: Command) -> None
     assert "--wait needs --view" in ended.err
 
 
+@pytest.mark.parametrize("option", ["--pose", "--from", "--no-drive-status"])
+def test_what_belongs_to_set_points_needs_them(command: Command, option: str) -> None:
+    value = () if option == "--no-drive-status" else ("x.json",)
+    ended = command("live", "s.toml", option, *value)
+    assert (ended.status, ended.out) == (2, "")
+    assert f"{option} is for --setpoints HOST:PORT, which is missing" in ended.err
+
+
+def test_a_pose_that_is_not_home_is_refused_and_nothing_is_written(command: Command) -> None:
+    """It says what to do; without set points nobody asks."""
+    pose = '{"version": 1, "platform": "atlas-2.9m", "moving": false, "q_ws": [0, 1, 0, 0],'
+    Path("pose.json").write_text(f'{pose} "wheel_angle_rad": [1, 2, 3], "stage_m": [0, 0, 0]}}')
+    before = set(Path().iterdir())
+    ended = command("live", "s.toml", "--setpoints", "127.0.0.1:5600", "--pose", "pose.json")
+    assert (ended.status, ended.out) == (2, "")
+    assert "180.0 deg from upright, 0 mm from the centre" in ended.err
+    assert "--from pose.json" in ended.err
+    assert "--from home" in ended.err
+    assert set(Path().iterdir()) == before
+
+
 def test_an_existing_log_is_kept(command: Command) -> None:
     Path("short.mcap").write_bytes(b"mine")
     ended = command("live", "s.toml")
@@ -140,6 +161,8 @@ def test_a_second_signal_stops_and_the_log_is_whole(folder: Path) -> None:
             "--setpoints",
             f"127.0.0.1:{drives.getsockname()[1]}",
             "--no-drive-status",
+            "--pose",
+            "pose.json",
         )
         for state in ("running", "parking"):
             until(

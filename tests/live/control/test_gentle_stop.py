@@ -5,7 +5,7 @@ from math import inf
 
 import numpy as np
 import pytest
-from hypothesis import Phase, assume, given, settings
+from hypothesis import Phase, assume, example, given, settings
 from hypothesis import strategies as st
 
 from atlas_cueing.live.control.axis import AxisLimits
@@ -44,6 +44,7 @@ def flown(limits: AxisLimits, state: Vec3) -> tuple[np.ndarray, float]:
 
 @settings(max_examples=60, phases=QUICK)
 @given(magnitudes, magnitudes, magnitudes, magnitudes, shares, shares, shares)
+@example(10.0, 10.0, 1.0, 1000.0, 0.0, 0.9, 0.424)  # near its speed, and still speeding up
 def test_any_axis_from_any_state_that_can_stop(
     speed: float, acceleration: float, jerk: float, travel: float, p: float, v: float, a: float
 ) -> None:
@@ -64,6 +65,7 @@ def test_any_axis_from_any_state_that_can_stop(
 
 @settings(max_examples=60, phases=QUICK)
 @given(magnitudes, magnitudes, magnitudes, shares, shares)
+@example(10.0, 10.0, 1.0, 0.1, -0.095)  # with 0.4 of the jerk it would turn round, not with 0.5
 def test_without_a_travel_it_is_at_most_half_as_hard_and_does_not_turn_round(
     speed: float, acceleration: float, jerk: float, v: float, a: float
 ) -> None:
