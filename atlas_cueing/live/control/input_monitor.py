@@ -18,6 +18,7 @@ TOLD_AGAIN_AFTER = 2.0  # s at least between two reasons
 RESUME_TIME = 1.0  # s of blending to the cue after a hold
 
 _TRACKING = (State.ENGAGING, State.RUNNING)
+_TOLD_IN = (State.ENGAGING, State.RUNNING, State.WAITING)
 
 
 class InputMonitor:
@@ -84,7 +85,7 @@ class InputMonitor:
         """
         remark = reading.remark
         if reading.age <= reading.patience:
-            if remark == self._noted or not (state in _TRACKING or state is State.WAITING):
+            if remark == self._noted or state not in _TOLD_IN:
                 return ""
             self._noted = remark or self._noted
             return remark
