@@ -71,6 +71,8 @@ def import_flight(
     path = Path(path)
     if not path.exists():
         raise InputError(f"{path}: no such file")
+    if not path.is_dir() and not path.is_file():  # opening a pipe would wait for ever
+        raise InputError(f"{path}: not a regular file")
     if path.is_dir() and flight_map.format != "ros":
         raise InputError(
             f"{path}: is a folder, allowed for the format {flight_map.format!r}: a file"

@@ -1,5 +1,6 @@
 """What is wrong with a CSV file or a map, told with line, column and value."""
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -69,7 +70,12 @@ def test_a_short_line_and_a_bad_header(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_bytes(b"time_s,\xff\xfe\n")
     with pytest.raises(InputError, match="line 1: not UTF-8 text: byte 8"):
         import_flight(tmp_path / "a.csv", load_map("csv"))
-    for path, told in ((tmp_path, "is a folder"), (tmp_path / "none", "no such file")):
+    os.mkfifo(tmp_path / "pipe")
+    for path, told in (
+        (tmp_path, "is a folder"),
+        (tmp_path / "none", "no such file"),
+        (tmp_path / "pipe", "not a regular file"),
+    ):
         with pytest.raises(InputError, match=told):
             import_flight(path, load_map("csv"))
 

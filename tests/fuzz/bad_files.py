@@ -363,7 +363,6 @@ PATHS = [
                 ),
                 **files,
             },
-            status=2 if name != "10 GB of nothing" else 1,
         )
         for name, (path, files) in NO_FILES.items()
     ],

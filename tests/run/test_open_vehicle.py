@@ -2,10 +2,12 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from scenario.texts import AIRCRAFT, SCRIPT, SIGNALS
 
 from atlas_cueing.errors import InputError
+from atlas_cueing.recording import write_vehicle_log
 from atlas_cueing.run import flight_length, open_vehicle, run_scenario
 from atlas_cueing.scenario import load_scenario
 from atlas_cueing.vehicles import Flight, LimitedDuration
@@ -34,7 +36,15 @@ def test_the_duration_ends_a_recording(tmp_path: Path) -> None:
     run_scenario(load_scenario(tmp_path / "s.toml"), tmp_path / "s.mcap")
     assert end(tmp_path, RECORDING, live=True) == pytest.approx(0.5, abs=0.01)
     assert end(tmp_path, RECORDING, "duration_s=0.3", live=True) == pytest.approx(0.3, abs=0.01)
-    with pytest.raises(InputError, match="flies only live"):
+    assert end(tmp_path, RECORDING) == end(tmp_path, RECORDING, live=True)
+
+
+def test_a_gap_is_input_that_does_not_come_and_no_flight_without_a_clock(tmp_path: Path) -> None:
+    rows = np.zeros((9, 11))
+    rows[:, 0], rows[:, 1] = 0.1 * np.array([0, 1, 2, 3, 6, 7, 8, 9, 10]), 1.0
+    (tmp_path / "s.mcap").write_bytes(write_vehicle_log(rows, {}, {}))
+    assert end(tmp_path, RECORDING, live=True) == pytest.approx(1.0)
+    with pytest.raises(InputError, match=r"2 states missing between 0\.300000 and 0\.600000 s"):
         end(tmp_path, RECORDING)
 
 

@@ -5,6 +5,7 @@ file.
 """
 
 import csv
+from array import array
 from collections.abc import Iterator, Sequence
 from math import isfinite
 from pathlib import Path
@@ -20,6 +21,7 @@ from ..samples import Part, Progress, Samples, chosen, missing, wanted
 
 _DELIMITERS = (",", ";", "\t", "|", " ")
 _LONGEST_LINE = 1 << 20  # characters
+_MOST_ROWS = 10_000_000  # some 0.6 GB of memory
 _OFTEN = 5000  # lines between two reports
 _LONGEST_SHOWN = 40  # characters of a value that a message repeats
 
@@ -87,8 +89,7 @@ def _numbers(
 ) -> tuple[NDArray[Any], Array]:
     """Read these columns: line of each row (n,), and numbers (n, names)."""
     places = [header.index(name) for name in names]
-    rows: list[int] = []
-    numbers: list[list[float]] = []
+    rows, numbers = array("q"), array("d")
     for line, text in _lines(path, progress):
         if line <= header_line or not text.strip() or text.lstrip().startswith("#"):
             continue
@@ -106,8 +107,10 @@ def _numbers(
                 for name, place in zip(names, places, strict=True)
             ]
         rows.append(line)
-        numbers.append(values)
-    return np.array(rows, dtype=np.int64), np.array(numbers).reshape(-1, len(names))
+        numbers.extend(values)
+        if len(rows) > _MOST_ROWS:
+            raise InputError(f"{path}: line {line}: more samples than allowed: {_MOST_ROWS}")
+    return np.array(rows), np.array(numbers).reshape(-1, len(names))
 
 
 def _number(path: Path, line: int, name: str, cells: list[str], place: int) -> float:
