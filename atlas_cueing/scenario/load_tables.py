@@ -79,7 +79,11 @@ class PartTable(ScenarioTable):
 
 
 class DriveTable(ScenarioTable):
-    """`[drive]`: motor and gear of each wheel, torques and losses at its axle."""
+    """`[drive]`: motor and gear of each wheel, torques and losses at its axle.
+
+    torque_rms_n_m is compared with the rms over a whole run, however short, so it is for flights
+    that are long against what heats a motor; the presets leave it out.
+    """
 
     torque_n_m: Torque | None = None
     torque_rms_n_m: Torque | None = None

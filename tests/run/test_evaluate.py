@@ -11,6 +11,7 @@ from short_scenario import Load
 from atlas_cueing.evaluation import (
     BLOCK_TICKS,
     Consistency,
+    ContactLoads,
     LimitUse,
     Metrics,
     RunColumns,
@@ -136,6 +137,7 @@ def test_the_figures_in_blocks_are_those_of_the_whole(
     expected = gathered(Metrics(), flight) | gathered(
         Consistency(geometry.wheels_from_sphere, geometry.sphere_from_wheels), flight
     )
+    expected |= gathered(ContactLoads(platform.load_model()), flight)
     assert found.metrics == expected
     assert list(found.metrics) == list(expected)
     assert found.limit_use == gathered(

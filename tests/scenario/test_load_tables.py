@@ -46,6 +46,7 @@ def test_numbers_arrive() -> None:
     data["wheel"][1] |= {"friction": 0.7, "inertia_kg_m2": 0.3, "load_limit_n": 9e3}
     for wheel in data["wheel"]:
         wheel["stiffness_n_m"] = 1e6
+    data["drive"] |= {"torque_rms_n_m": 200.0}
     data["drive"] |= {"motor_inertia_kg_m2": 0.002, "viscous_n_m_s": 0.1, "coulomb_n_m": 2.0}
     data["preload"] = [{"contact": [0, 0, 2], "force_n": 100}]
     data["support"] = [{"contact": [0, -3, 0], "stiffness_n_m": 5e5, "preload_n": 7}]
