@@ -14,6 +14,7 @@ from waiting import until
 from atlas_cueing import rotation, run
 from atlas_cueing.__main__ import main
 from atlas_cueing.errors import InputError, LogError
+from atlas_cueing.evaluation import DECLARED
 
 from .conftest import SCRIPT, Command
 
@@ -60,6 +61,15 @@ def test_help_has_examples(command: Command, arguments: list[str]) -> None:
     assert (ended.status, ended.err) == (0, "")
     assert "Example" in ended.out
     assert "atlas-cueing " + (arguments[0] if len(arguments) > 1 else "run") in ended.out
+
+
+@pytest.mark.parametrize("word", ["run", "review", "compare"])
+def test_help_says_what_figures_mean(command: Command, word: str) -> None:
+    told = " ".join(command(word, "--help").out.split())
+    for metric in (metric for metric in DECLARED.values() if metric.meaning):
+        first, *rest = metric.title.removesuffix(" rms").split()
+        assert first in told, metric.name
+        assert " ".join(rest).replace("10s", "10 s") in told, metric.name
 
 
 def test_help_loads_neither_simulator_nor_numbers() -> None:

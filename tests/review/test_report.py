@@ -11,6 +11,8 @@ import pytest
 from live.logs import largest_file
 
 from atlas_cueing.errors import InputError, OutputError
+from atlas_cueing.evaluation import DECLARED
+from atlas_cueing.printable import html_text
 from atlas_cueing.review import Finding, compare_logs, cue_again, judge, review_log
 from atlas_cueing.review.plots.downsample import POINTS
 from atlas_cueing.review.plots.time_series import MOST_MARKS, over_time
@@ -43,6 +45,15 @@ def test_verdict_first(page: str) -> None:
     )
     for version in ("jsbsim version", "ruckig version", "atlas cueing version"):
         assert version in body
+
+
+def test_what_the_figures_say_is_beside_the_verdict(page: str) -> None:
+    """All that this log has; the mismatch ratio is for logs beside others."""
+    body = own_part(page)
+    for name, metric in DECLARED.items():
+        told = f"<dt>{metric.title}</dt><dd>{html_text(metric.meaning)}</dd>"
+        assert (told in body) == bool(metric.meaning and name != "mismatch_ratio"), name
+    assert body.index("verdict clean") < body.index("class='meanings'") < body.index("Over time")
 
 
 def test_nothing_is_fetched(page: str) -> None:
