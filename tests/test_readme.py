@@ -18,10 +18,13 @@ def test_from_python(tmp_path: Path) -> None:
     (tmp_path / "scenarios").symlink_to(ROOT / "scenarios")
     printed = subprocess.run(
         [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True
-    ).stdout.split()
-    assert printed[:2] == ["ok", "3121"]
-    assert 0.0 < float(printed[2]) < 3.2
-    assert (tmp_path / "rolls.mcap").exists()
+    ).stdout.splitlines()
+    ran, (verdict, *shape), (*_, speed) = printed[:2], printed[2].split(), printed[3].split()
+    assert [line.split()[:3] for line in ran] == [["blend", "ok", "3121"], ["force", "ok", "3121"]]
+    assert all(0.0 < float(line.split()[3]) < 3.2 for line in ran)
+    assert (verdict, " ".join(shape)) == ("clean", "(3121, 3)")
+    assert 0.0 < float(speed.rstrip(")")) < 31.0
+    assert len(code.splitlines()) <= 20
 
 
 def test_links_lead_somewhere() -> None:

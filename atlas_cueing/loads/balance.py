@@ -95,6 +95,14 @@ def platform_loads(
 
     Raises InputError for shapes that do not fit each other, numbers that are not finite, a
     quaternion that is not of unit norm, and a platform without masses.
+
+    Example:
+        >>> from atlas_cueing import load_platform, platform_loads
+        >>> still = {"q_WS": [1, 0, 0, 0], "w_WS_W": [0, 0, 0], "alpha_WS_W": [0, 0, 0]}
+        >>> loads = platform_loads(load_platform("atlas-2.9m"), **still, a_WS_W=[1, 0, 0])
+        >>> round(float(loads.force[0]))  # N: a mass of 490 kg at 1 m/s^2
+        490
+
     """
     model = platform.load_model()
     named = {"q_WS": q_WS, "w_WS_W": w_WS_W, "alpha_WS_W": alpha_WS_W, "a_WS_W": a_WS_W}

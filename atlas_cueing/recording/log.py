@@ -4,13 +4,17 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..errors import LogError
+from ..errors import LogError, MissingExtraError
 from ..rotations import Array
 from ..signals import TOPICS, StateChange
 from .wire import Times
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 _COMPONENTS = ("wxyz", "xyz", "123")  # of a quaternion, a vector, the wheels
 
@@ -69,6 +73,25 @@ class Log:
                 f"{self.path}: {topic} has no field {field!r}; fields: {', '.join(table.fields)}"
             )
         return table.values[:, table.fields.index(field)]
+
+    def columns(self, topic: str) -> dict[str, Array]:
+        """Return all fields of a topic by name, (n,) each, in the units of their names.
+
+        Raises LogError if the log does not have the topic.
+        """
+        table = self._table(topic)
+        return dict(zip(table.fields, table.values.T, strict=True))
+
+    def frame(self, topic: str) -> "DataFrame":
+        """Return a topic as a pandas data frame: a column a field, indexed by time_s.
+
+        Raises LogError if the log does not have the topic, and MissingExtraError without pandas.
+        """
+        try:
+            from pandas import DataFrame
+        except ImportError:
+            raise MissingExtraError("Log.frame", "pandas", "pandas") from None
+        return DataFrame(self.columns(topic)).set_index("time_s")
 
     def vector(self, topic: str, name: str) -> Array:
         """Return a vector or quaternion over the whole run.

@@ -43,6 +43,18 @@ def read_log(path: str | Path, max_bytes: int = MAX_LOG) -> Log:
 
     Raises LogError when the file cannot be read, is cut or damaged (every checksum is checked), has
     none of this program's topics, or none of the messages of such a topic can be read.
+
+    Example:
+        >>> from atlas_cueing import load_scenario, read_log, run_scenario
+        >>> scenario = load_scenario("scenarios/signal_sway.toml", ["duration_s=1"])
+        >>> log = read_log(run_scenario(scenario, "sway.mcap").log)
+        >>> [*log.tables]
+        ['/vehicle', '/cue', '/motion', '/wheels', '/felt', '/loads']
+        >>> log.vector("/motion", "w").shape  # rad/s in W, a row a tick
+        (121, 3)
+        >>> float(log.columns("/wheels")["time_s"][-1])
+        1.0
+
     """
     path = Path(path)
     with errors_of_reading(path), path.open("rb") as stream:

@@ -75,6 +75,14 @@ def review_log(path: str | Path) -> Review:
 
     Raises InputError when there is no such file, and LogError when it is damaged, not a log of
     ours, or has no platform.
+
+    Example:
+        >>> from atlas_cueing import load_scenario, review_log, run_scenario
+        >>> scenario = load_scenario("scenarios/signal_sway.toml", ["duration_s=1"])
+        >>> found = review_log(run_scenario(scenario, "sway.mcap").log)
+        >>> found.verdict, found.findings
+        ('clean', ())
+
     """
     return judge(open_run(path))
 

@@ -24,6 +24,21 @@ def build_pipeline(
     Raises SlipConditionError for a singular platform and InputError for limits or parameters that
     do not fit the step, and for a method that needs the whole flight and does not have it, or finds
     no plan for it.
+
+    Example:
+        >>> from math import cos
+        >>> from atlas_cueing import VehicleState, build_pipeline, load_scenario
+        >>> pipeline = build_pipeline(load_scenario("scenarios/f16_rolls.toml"), dt=0.01)
+        >>> def at(time):  # level, in a yaw that sets in slowly
+        ...     rate = 0.1 * (1.0 - cos(time))
+        ...     return VehicleState(time, [1, 0, 0, 0], [0, 0, rate], [0, 0, -9.80665])
+        >>> ticks = [pipeline.step(at(0.01 * k)) for k in range(101)]
+        >>> tick = ticks[-1]  # right is negative about the z axis of W, which points up
+        >>> round(tick.motion.w_WS_W[2], 3), tick.motion.limited
+        (-0.046, (0.0, 0.0))
+        >>> [round(speed, 3) for speed in tick.wheels.speed]
+        [0.34, 0.34, 0.34]
+
     """
     platform = scenario.platform
     _check_room(scenario, dt)

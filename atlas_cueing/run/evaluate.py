@@ -45,6 +45,14 @@ def evaluate_log(log: str | Path, platform: Platform) -> Evaluation:
 
     Limits are looked at over the whole run, metrics of a live one over its longest stretch in state
     `running`.
+
+    Example:
+        >>> from atlas_cueing import evaluate_log, load_platform, load_scenario, run_scenario
+        >>> scenario = load_scenario("scenarios/signal_sway.toml", ["duration_s=1"])
+        >>> log = run_scenario(scenario, "sway.mcap").log
+        >>> evaluate_log(log, load_platform("atlas-1.5m")).violations == ()  # would it bear it?
+        True
+
     """
     found = _Found(platform)
     try:

@@ -43,6 +43,18 @@ def run_scenario(
     The log is finished whatever ends the flight. Raises InputError (nothing was written) when the
     scenario cannot fly or the log cannot be opened; an unexpected error is raised again after the
     log is finished.
+
+    progress: called now and then with the flight time, s.
+
+    Example:
+        >>> from atlas_cueing import load_scenario, run_scenario
+        >>> scenario = load_scenario("scenarios/f16_rolls.toml", ["duration_s=1"])
+        >>> result = run_scenario(scenario, "rolls.mcap")
+        >>> result.result, result.ticks, result.evaluation.violations
+        ('ok', 121, ())
+        >>> result.evaluation.metrics["rate_rms_rad_s"] < 0.1
+        True
+
     """
     begun, log = perf_counter(), Path(log)
     flight = _prepared(scenario)

@@ -39,6 +39,13 @@ def load_scenario(
 
     trust_models: whether a script or aircraft beside the scenario may be flown; it can be read and
         cued anew in any case. A cueing method in a file beside it is not even read without.
+
+    Example:
+        >>> from atlas_cueing import load_scenario
+        >>> scenario = load_scenario("scenarios/f16_rolls.toml", ["cueing.method=force"])
+        >>> scenario.name, scenario.platform.name, scenario.file.cueing.method
+        ('f16_rolls', 'atlas-2.9m', 'force')
+
     """
     if os.path.isdir(path):
         batch = f"to fly all scenarios in it: atlas-cueing batch {path} -o RESULTS"
@@ -126,6 +133,13 @@ def load_platform(name_or_path: str) -> Platform:
     """A platform of the package by name, or a platform file by path.
 
     Raises ScenarioError with every mistake.
+
+    Example:
+        >>> from atlas_cueing import load_platform
+        >>> platform = load_platform("atlas-2.9m")
+        >>> platform.wheel_limit_values().speed  # rad/s
+        (31.0, 31.0, 31.0)
+
     """
     path = presets().get(name_or_path, Path(name_or_path))
     if not os.path.exists(path):  # Path.exists raises when a name is too long

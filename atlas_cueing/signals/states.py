@@ -50,6 +50,12 @@ class VehicleState:
 
     The force is scaled by standard gravity over local gravity, so that a vehicle at rest shows
     (0, 0, -9.80665) anywhere. Vectors may be given as tuples, lists or arrays.
+
+    Example:
+        >>> from atlas_cueing import VehicleState
+        >>> VehicleState(0.0, [1, 0, 0, 0], [0, 0, 0.1], [0, 0, -9.80665]).w_NB_B
+        (0.0, 0.0, 0.1)
+
     """
 
     time: Final[float]

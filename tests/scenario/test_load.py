@@ -129,7 +129,7 @@ def test_a_wrong_key_is_not_left_behind(tmp_path: Path) -> None:
 
 
 def test_an_unknown_method_from_the_command_line(tmp_path: Path) -> None:
-    allowed = ", ".join(sorted(METHODS))
+    allowed = ", ".join(sorted([*METHODS, "FILE.py:CLASS"]))
     with pytest.raises(
         ScenarioError, match=rf"^--set: cueing\.method = 'washout': allowed: {allowed}$"
     ):
