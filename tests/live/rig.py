@@ -217,7 +217,7 @@ class Rig:
         )
         self.guard = Guard(dt, self.wheel_limits, self.stage_limits)
         operator = OperatorInputs(
-            self.wanted.edges, lambda: self.wanted.signals, duration, attended, carries
+            *(self.wanted.edges, lambda: self.wanted.signals, duration, attended), carries=carries
         )
         limits_told = limits_hash(self.wheel_limits, self.stage_limits)
         self.monitor = DriveMonitor(feedback, limits_told) if feedback else None
