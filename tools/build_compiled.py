@@ -12,6 +12,7 @@ from pathlib import Path
 from shutil import which
 from typing import Any
 
+from documented import add_docstrings
 from setuptools import Extension
 from setuptools.command.build_ext import build_ext
 
@@ -41,15 +42,15 @@ def obstacle() -> str:
 
 def extensions() -> list[Extension]:
     """Give the compiled modules as extensions of C: mypyc translates them now."""
-    from documented import keep_docstrings
     from mypyc.build import mypycify
 
-    keep_docstrings(compiled_modules())
     # Types are checked elsewhere, with everything installed; here little is.
     options = ["--config-file=", "--ignore-missing-imports", "--follow-imports=silent"]
     # A file for each module, so that the processors share the work.
     arguments = [*options, *compiled_modules()]
     found = mypycify(arguments, opt_level="2", debug_level="0", multi_file=True)
+    written = (file for extension in found for file in extension.sources)
+    add_docstrings(written, compiled_modules())
     for extension in found:
         kept = [flag for flag in extension.extra_compile_args if flag != "-Werror"]
         extension.extra_compile_args = [*kept, "-ffp-contract=off"]  # fused operations: other bits

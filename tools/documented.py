@@ -1,61 +1,60 @@
 """Docstrings for compiled code: mypyc keeps signatures of functions and classes, and no words.
 
-It writes `text_signature` into the C tables of functions and types, where help() and inspect look
-for both; the docstrings of the sources are put behind. Where another version of mypyc has no such
-place, the code is compiled without them.
+It writes them into tables of the C files, where help() and inspect look for both; the docstrings
+of the sources are put behind. What another version of mypyc writes in another way stays as it is.
 """
 
 import ast
-from collections.abc import Callable, Iterable, Iterator
+import re
+from collections.abc import Iterable, Iterator
 from inspect import cleandoc
 from pathlib import Path
-from typing import Any
 
-_PLACES = {  # mypyc's functions that write a text, and the modules that have them by name
-    "native_function_doc_initializer": ("emit", "emitclass", "emitmodule"),
-    "native_class_doc_initializer": ("emitclass",),
-}
+_TEXT = r'PyDoc_STR\((?P<text>"(?:[^"\\]|\\.)*"|NULL)\)'
+_FUNCTION = re.compile(rf"(?P<head>CPyPy_(?P<name>\w+),\s*METH_[^\"\n]*){_TEXT}")
+_CLASS = re.compile(rf"(?P<head>sizeof\((?P<name>\w+)Object\),[^;]*?\.tp_doc = ){_TEXT}")
 
 
-def keep_docstrings(files: Iterable[str]) -> None:
-    """Let mypyc, in this process, write the docstrings of these source files as well."""
-    from importlib import import_module
-
-    words = dict(_docstrings(files))
-    for function, modules in _PLACES.items():
-        for module in (import_module(f"mypyc.codegen.{name}") for name in modules):
-            if hasattr(module, function):
-                setattr(module, function, _with_words(getattr(module, function), words))
-
-
-def _with_words(plain: Callable[[Any], str], words: dict[str, str]) -> Callable[[Any], str]:
-    """Give a function that writes what `plain` does and the docstring behind it, as C strings.
-
-    C joins literals that stand side by side.
-    """
-    from mypyc.codegen.cstring import c_string_initializer
-
-    def documented(of: Any) -> str:
-        signature, text = plain(of), words.get(of.fullname, "")
-        if not text:
-            return signature
-        docstring = c_string_initializer(text.encode())
-        return docstring if signature == "NULL" else f"{signature} {docstring}"
-
-    return documented
+def add_docstrings(c_files: Iterable[str], modules: Iterable[str]) -> None:
+    """Put the docstrings of these source files into the C files that mypyc made of them."""
+    words = {"___".join(Path(file).with_suffix("").parts): file for file in modules}
+    for file in map(Path, c_files):
+        module = file.stem.removeprefix("__native_")
+        if module in words:
+            source = Path(words[module]).read_text("utf-8")
+            file.write_text(_documented(file.read_text("utf-8"), module, source), "utf-8")
 
 
-def _docstrings(files: Iterable[str]) -> Iterator[tuple[str, str]]:
-    """Give the docstrings of classes, functions and methods by their full names."""
-    for file in files:
-        path = Path(file)
-        module = ".".join(path.with_suffix("").parts)
-        yield from _inside(ast.parse(path.read_text("utf-8")), module)
+def _documented(code: str, module: str, source: str) -> str:
+    """The C code of a module with the docstrings of its source."""
+    words = dict(_inside(ast.parse(source)))
+    parts = module.split("___")
+    # a function has the shortest end of the module's name that is not another's as well
+    short = [f"{'___'.join(parts[start:])}___" for start in range(len(parts))]
+
+    def with_words(found: re.Match[str]) -> str:
+        name = found["name"]
+        known = (words.get(name.removeprefix(s)) for s in short if name.startswith(s))
+        text = next((word for word in known if word), "")
+        written = "" if found["text"] == "NULL" else found["text"]
+        return f"{found['head']}PyDoc_STR({written} {_literal(text)})" if text else found[0]
+
+    return _CLASS.sub(with_words, _FUNCTION.sub(with_words, code))
 
 
-def _inside(node: ast.Module | ast.ClassDef, name: str) -> Iterator[tuple[str, str]]:
+def _inside(node: ast.Module | ast.ClassDef, outer: str = "") -> Iterator[tuple[str, str]]:
+    """Docstrings of classes, functions and methods by their names, as C has them."""
     for inner in node.body:
         if isinstance(inner, ast.ClassDef | ast.FunctionDef):
-            yield f"{name}.{inner.name}", cleandoc(ast.get_docstring(inner) or "")
+            yield f"{outer}{inner.name}", cleandoc(ast.get_docstring(inner) or "")
         if isinstance(inner, ast.ClassDef):
-            yield from _inside(inner, f"{name}.{inner.name}")
+            yield from _inside(inner, f"{outer}{inner.name}___")
+
+
+def _literal(text: str) -> str:
+    """A string of C; two of them side by side are one."""
+    letters = (
+        chr(byte) if 32 <= byte < 127 and chr(byte) not in '"\\?' else f"\\{byte:03o}"
+        for byte in text.encode()
+    )
+    return f'"{"".join(letters)}"'

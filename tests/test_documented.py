@@ -1,0 +1,60 @@
+"""Words of the sources in the C code that mypyc makes of them."""
+
+import ast
+from pathlib import Path
+
+import pytest
+from documented import add_docstrings
+
+SOURCE = '''
+def turn(q):
+    """Turn \\"q\\" by 3°."""
+
+class Sphere:
+    """A sphere.
+
+    Second line?"""
+
+    def turn(self):
+        """Turn it."""
+
+    def bare(self): ...
+'''
+CODE = r"""
+    {"turn", (PyCFunction)CPyPy_wheels___sphere___turn, METH_FASTCALL | METH_KEYWORDS, PyDoc_STR("turn(q)\n--\n\n") /* docstring */},
+    {"turn",
+     (PyCFunction)CPyPy_wheels___sphere___Sphere___turn,
+     METH_FASTCALL | METH_KEYWORDS, PyDoc_STR("turn($self)\n--\n\n")},
+    {"bare",
+     (PyCFunction)CPyPy_wheels___sphere___Sphere___bare,
+     METH_FASTCALL | METH_KEYWORDS, PyDoc_STR(NULL)},
+    .tp_basicsize = sizeof(package___wheels___sphere___SphereObject),
+    .tp_flags = Py_TPFLAGS_DEFAULT,
+    .tp_doc = PyDoc_STR("Sphere()\n--\n\n"),
+};
+"""  # noqa: E501 - as mypyc writes it
+
+
+def test_words_stand_behind_their_signatures(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    source, code = Path("package/wheels/sphere.py"), Path("__native_package___wheels___sphere.c")
+    source.parent.mkdir(parents=True)
+    source.write_text(SOURCE)
+    code.write_text(CODE)
+    other = Path("init.c")
+    other.write_text(CODE)
+    add_docstrings([str(code), str(other)], [str(source)])
+    assert other.read_text() == CODE
+    lines = code.read_text().splitlines()
+    written = [line.split("PyDoc_STR(")[1].rsplit(")", 1)[0] for line in lines if "Doc_" in line]
+    literals = [f"b{text}".replace(' "', ' b"') for text in written if text != "NULL"]
+    texts = [ast.literal_eval(literal) for literal in literals]
+    assert [text.decode() for text in texts] == [
+        'turn(q)\n--\n\nTurn "q" by 3°.',
+        "turn($self)\n--\n\nTurn it.",
+        "Sphere()\n--\n\nA sphere.\n\nSecond line?",
+    ]
+    assert len(written) == 4
+    assert written[2] == "NULL"
