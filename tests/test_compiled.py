@@ -55,7 +55,7 @@ def test_compiled_code_computes_the_same_bits(
     compiled, source = probe(tmp_path / "compiled", unpacked), probe(tmp_path / "plain", None)
     assert (compiled.pop("code"), source.pop("code")) == (".so", ".py")
     assert compiled == source
-    assert len(source) == len(CAUSAL_METHODS) + 3
+    assert len(source) == len(CAUSAL_METHODS) + 4
 
 
 def test_what_runs_every_tick_is_compiled(monkeypatch: pytest.MonkeyPatch) -> None:

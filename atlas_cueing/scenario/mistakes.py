@@ -43,7 +43,7 @@ def mistakes_of(
         key, value = _as_written(detail["loc"], data)
         if detail["type"] == "union_tag_invalid":
             key, value = (*key, "method"), _lookup(value, "method")
-        mistake = Mistake(name_file(key), dotted(key), shown(value), _allowed(detail, table))
+        mistake = Mistake(name_file(key), dotted(key), shown(value), allowed(detail, table))
         found.setdefault(key, (_position(key, data), mistake))
     mistakes = [mistake for _, mistake in sorted(found.values(), key=lambda pair: pair[0])]
     return mistakes + more(len(details) - MOST_SHOWN, name_file(()))
@@ -114,7 +114,8 @@ def _repr(value: Any) -> str:
         return "an integer of thousands of digits"
 
 
-def _allowed(detail: ErrorDetails, table: type[ScenarioTable]) -> str:
+def allowed(detail: ErrorDetails, table: type[ScenarioTable]) -> str:
+    """Say what is allowed where pydantic found this error in a table."""
     kind, context = detail["type"], detail.get("ctx", {})
     if kind == "extra_forbidden":
         return (

@@ -80,9 +80,9 @@ def _many_runs(_: Any) -> None:
 
 
 class ScenarioFile(ScenarioTable):
-    """A scenario file; validate it with `context={"folder".
+    """A scenario file.
 
-    ...}`, where user's scripts are looked for.
+    Validate it with `context={"folder": ...}`, where a user's files are looked for.
     """
 
     name: Annotated[str, NAME]

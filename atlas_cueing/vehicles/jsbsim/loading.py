@@ -204,6 +204,15 @@ def input_objections(aircraft: str, models: Path | None, names: Iterable[str]) -
     }
 
 
+def properties(aircraft: str) -> list[str]:
+    """Properties of one of JSBSim's own aircraft in order, each with (R) for read, (W) for set.
+
+    Raises StartError when it does not load.
+    """
+    catalog = _loaded(aircraft, None).get_property_catalog()
+    return sorted(entry.replace("[0] (", " (") for entry in catalog)
+
+
 @lru_cache(maxsize=4)  # the runs of a sweep have one aircraft, or a few
 def _loaded(aircraft: str, models: Path | None) -> jsbsim.FGFDMExec:
     return load(AircraftFlight(aircraft, InitialConditions(0.0, 0.0), models=models))
