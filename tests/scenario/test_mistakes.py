@@ -10,7 +10,7 @@ from atlas_cueing.scenario.reading import read_toml
 from .conftest import Refused
 from .texts import AIRCRAFT
 
-KNOWN = ", ".join(sorted(METHODS))
+KNOWN = ", ".join(sorted([*METHODS, "FILE.py:CLASS"]))
 
 EVERYTHING_WRONG = """
 nam = "g"
