@@ -187,8 +187,8 @@ def test_look_ahead_needs_the_whole_flight_and_says_so_without(
     assert scenario.needs_whole_flight
     with pytest.raises(
         InputError,
-        match=rf"^scenario 'short': cueing\.look_ahead_s of method '{method}' needs the whole flight"
-        r" .*does not fly live; use run, batch or recue, or set it to 0$",
+        match=rf"^scenario 'short': cueing\.look_ahead_s of method '{method}' needs the whole"
+        r" flight .*does not fly live; use run, batch or recue, or set it to 0$",
     ):
         build_pipeline(scenario, 0.01)
 
