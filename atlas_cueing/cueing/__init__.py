@@ -17,11 +17,13 @@ from .force import ForceParameters
 from .hedge import HedgeParameters
 from .method import (
     CueSource,
+    LookAheadParameters,
     Method,
     MethodParameters,
     PlanParameters,
     Rotation,
     RotationParameters,
+    needs_flight,
 )
 from .methods import CAUSAL_METHODS, DEFAULT_METHOD, METHODS
 from .perceptual import PerceptualParameters
@@ -42,6 +44,7 @@ __all__ = [
     "FeltTurnParameters",
     "ForceParameters",
     "HedgeParameters",
+    "LookAheadParameters",
     "Method",
     "MethodParameters",
     "MpcParameters",
@@ -54,4 +57,5 @@ __all__ = [
     "StageParameters",
     "StillParameters",
     "build_cueing",
+    "needs_flight",
 ]

@@ -2,9 +2,11 @@
 
 # mypyc: runs every tick
 
+from collections.abc import Sequence
+
 from ..rotation import Vec3
 from ..signals import Cue, StageLimits, VehicleState
-from .method import Rotation, RotationParameters
+from .method import LookAheadParameters, Rotation, RotationParameters, rotation_of
 from .stage.stage_cueing import StageCueing
 from .stage.stage_parameters import StageParameters
 
@@ -28,7 +30,12 @@ class Cueing:
 
 
 def build_cueing(
-    method: RotationParameters, stage: StageParameters, limits: StageLimits, head_S: Vec3, dt: float
+    method: RotationParameters | LookAheadParameters,
+    stage: StageParameters,
+    limits: StageLimits,
+    head_S: Vec3,
+    dt: float,
+    flight: Sequence[VehicleState] = (),
 ) -> Cueing:
     """Make the cueing of a causal method, which begins at the first state.
 
@@ -38,6 +45,9 @@ def build_cueing(
         limits: what the platform's stage can do.
         head_S: the rider's head from the sphere's centre, m, in S.
         dt: time step, s.
+        flight: every state of the flight, dt apart, for a method that looks ahead.
+
+    Raises InputError for look-ahead without a flight.
 
     """
-    return Cueing(method.rotation(dt), StageCueing(dt, stage, limits, head_S))
+    return Cueing(rotation_of(method, dt, flight), StageCueing(dt, stage, limits, head_S))

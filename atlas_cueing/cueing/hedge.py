@@ -9,11 +9,13 @@ committee loses not much more than the best of them does, whatever the flight (`
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from ..signals import VehicleState
 from .blend import BlendParameters
 from .committee.committee import COMMITTEE, Committee, CommitteeParameters
 from .felt_turn import FELT_BOUND_KEYS, FELT_TURN
 from .force import ForceParameters
-from .method import Method, RotationParameters
+from .look_ahead import LOOK_AHEAD
+from .method import LookAheadParameters, Method, RotationParameters, rotation_of
 from .parameter import Choice, Parameter, Range
 from .perceptual import PerceptualParameters
 from .stage.stage_parameters import GAIN
@@ -23,15 +25,29 @@ from .tilt import hold_of
 
 @dataclass(frozen=True, slots=True)
 class HedgeParameters:
-    """Parameters of `hedge`, all of them the committee's; METHOD says what each is."""
+    """Parameters of `hedge`; METHOD says what each is.
+
+    committee: what all members share, and how they are judged and followed.
+    look_ahead: of the member `perceptual`, s.
+    """
 
     committee: CommitteeParameters = COMMITTEE
+    look_ahead: float = 0.0
 
-    def rotation(self, dt: float) -> Committee:
-        """Make the rotation that begins at the first state; dt in s."""
-        return Committee(dt, [law.rotation(dt) for law in self.members()], self.committee)
+    def rotation(self, dt: float, flight: Sequence[VehicleState] = ()) -> Committee:
+        """Make the rotation that begins at the first state.
 
-    def members(self) -> Sequence[RotationParameters]:
+        Args:
+            dt: tick, s.
+            flight: every state of the flight, dt apart; it may be empty without look-ahead.
+
+        Raises InputError for look-ahead without a flight.
+
+        """
+        laws = [rotation_of(law, dt, flight) for law in self.members()]
+        return Committee(dt, laws, self.committee)
+
+    def members(self) -> Sequence[RotationParameters | LookAheadParameters]:
         """Give the laws that are asked; the first is trusted at the start.
 
         They have their own defaults but for the gain, the hold, and what is said of canals and of
@@ -40,7 +56,9 @@ class HedgeParameters:
         gain, hold, turn = self.committee.rotation_gain, self.committee.hold, self.committee.turn
         own = replace(FELT_TURN, canals=turn.canals, lasting=turn.lasting)
         return (
-            PerceptualParameters(rotation_gain=gain, hold=hold, turn=own),
+            PerceptualParameters(
+                rotation_gain=gain, hold=hold, turn=own, look_ahead=self.look_ahead
+            ),
             ForceParameters(rotation_gain=gain, hold=hold),
             StillParameters(),
             BlendParameters(rotation_gain=gain, hold=hold),
@@ -130,6 +148,7 @@ METHOD = Method(
             "found",
         ),
         *(replace(key, field=f"committee.{key.field}") for key in FELT_BOUND_KEYS),
+        replace(LOOK_AHEAD, description=f"of perceptual: {LOOK_AHEAD.description}"),
         hold_of("committee.hold"),
     ),
 )

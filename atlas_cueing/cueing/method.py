@@ -32,6 +32,29 @@ class RotationParameters(Protocol):
 
 
 @runtime_checkable
+class LookAheadParameters(Protocol):
+    """Parameters of a method that is causal, or looks ahead in a flight that is known.
+
+    A class with the attribute `look_ahead` is one of these, whatever else it has.
+    """
+
+    @property
+    def look_ahead(self) -> float:
+        """Time that the method looks ahead, s; with 0 it needs the past alone."""
+
+    def rotation(self, dt: float, flight: Sequence[VehicleState] = ()) -> Rotation:
+        """Make the rotation that begins at the first state.
+
+        Args:
+            dt: tick, s.
+            flight: every state of the flight, dt apart; it may be empty without look-ahead.
+
+        Raises InputError for look-ahead without a flight.
+
+        """
+
+
+@runtime_checkable
 class PlanParameters(Protocol):
     """Parameters of a method that needs the whole flight: it plans rotation and stage at once."""
 
@@ -51,7 +74,32 @@ class PlanParameters(Protocol):
         """
 
 
-MethodParameters: TypeAlias = RotationParameters | PlanParameters
+MethodParameters: TypeAlias = RotationParameters | LookAheadParameters | PlanParameters
+
+
+def needs_flight(parameters: MethodParameters) -> bool:
+    """Whether the whole flight has to be known before the first cue, so that none flies live."""
+    if isinstance(parameters, LookAheadParameters):
+        return parameters.look_ahead > 0.0
+    return isinstance(parameters, PlanParameters)
+
+
+def rotation_of(
+    parameters: RotationParameters | LookAheadParameters, dt: float, flight: Sequence[VehicleState]
+) -> Rotation:
+    """Make the rotation of a method, which knows the flight if it looks ahead.
+
+    Args:
+        parameters: of the method.
+        dt: tick, s.
+        flight: every state of the flight, dt apart; it may be empty without look-ahead.
+
+    Raises InputError for look-ahead without a flight.
+
+    """
+    if isinstance(parameters, LookAheadParameters):
+        return parameters.rotation(dt, flight)
+    return parameters.rotation(dt)
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +123,7 @@ class Method:
 
     @property
     def needs_flight(self) -> bool:
-        """Whether it has to know the whole flight before the first cue, so it cannot fly live."""
+        """Whether it has to know the whole flight, whatever its parameters: it cannot fly live."""
         return isinstance(self.defaults, PlanParameters)
 
     def metadata(self) -> dict[str, str]:

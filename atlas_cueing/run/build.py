@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from ..cueing import CueSource, PlanParameters, build_cueing
+from ..cueing import CueSource, PlanParameters, build_cueing, needs_flight
 from ..errors import InputError, Mistake, ScenarioError, SlipConditionError
 from ..pipeline import Pipeline
 from ..scenario.mistakes import SET, dotted, shown
@@ -94,11 +94,22 @@ def _check_room(scenario: Scenario, dt: float) -> None:
 def _cueing(scenario: Scenario, dt: float, states: Sequence[VehicleState] | None) -> CueSource:
     table, platform = scenario.file.cueing, scenario.platform
     method, stage_limits = table.parameters(), platform.stage_limit_values()
-    if not isinstance(method, PlanParameters):
-        return build_cueing(method, table.stage_parameters(), stage_limits, platform.head_S, dt)
-    if states is None:
-        raise InputError(
-            f"scenario {scenario.name!r}: method {table.declaration.name!r} needs the whole flight"
-            " beforehand, so it does not fly live; use run, batch or recue, or another method"
-        )
-    return method.plan(states, stage_limits, platform.head_S, dt)
+    if states is None and needs_flight(method):
+        raise InputError(_no_flight(scenario))
+    if isinstance(method, PlanParameters):
+        return method.plan(states or (), stage_limits, platform.head_S, dt)
+    stage = table.stage_parameters()
+    return build_cueing(method, stage, stage_limits, platform.head_S, dt, states or ())
+
+
+def _no_flight(scenario: Scenario) -> str:
+    """Say why the scenario's method cannot fly without a known flight, and what to do."""
+    name = scenario.file.cueing.declaration.name
+    if isinstance(scenario.file.cueing.parameters(), PlanParameters):
+        asks, instead = f"method {name!r} needs", "another method"
+    else:
+        asks, instead = f"cueing.look_ahead_s of method {name!r} needs", "set it to 0"
+    return (
+        f"scenario {scenario.name!r}: {asks} the whole flight beforehand, so it does not fly live;"
+        f" use run, batch or recue, or {instead}"
+    )

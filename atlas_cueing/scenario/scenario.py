@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import tomli_w
 from pydantic import BeforeValidator
 
-from ..cueing import DEFAULT_METHOD
+from ..cueing import DEFAULT_METHOD, needs_flight
 from ..errors import InputError, StartError
 from ..printable import is_name
 from ..recording.recorder import MAX_CHUNK_TICKS
@@ -132,11 +132,11 @@ class Scenario:
 
     @property
     def needs_whole_flight(self) -> bool:
-        """Whether the cueing method has to know the whole flight before the first cue.
+        """Whether the cueing has to know the whole flight before the first cue.
 
-        Such a method cannot fly live.
+        A method that plans does, and one that looks ahead. Such a scenario cannot fly live.
         """
-        return self.file.cueing.declaration.needs_flight
+        return needs_flight(self.file.cueing.parameters())
 
     @property
     def live_flight(self) -> Flight:

@@ -24,14 +24,13 @@ class Canals:
 
     def __init__(self, dt: float, time: float = LAW.canals) -> None:
         self.half = 0.5 * dt / time
-        self.before = self.used_to = np.zeros(3)
+        self.before = self.used_to = ZERO
 
     def feel(self, rate: Vec3) -> Vec3:
-        now, half = np.array(rate), self.half
-        driven = (1.0 - half) * self.used_to + half * (self.before + now)
-        self.used_to, self.before = driven / (1.0 + half), now
-        x, y, z = (now - self.used_to).tolist()
-        return (x, y, z)
+        half = self.half
+        driven = add(scale(1.0 - half, self.used_to), scale(half, add(self.before, rate)))
+        self.used_to, self.before = scale(1.0 / (1.0 + half), driven), rate
+        return subtract(rate, self.used_to)
 
 
 def follow(turn: FeltTurn, lasting: list[float], dt: float) -> list[tuple[float, float]]:

@@ -36,9 +36,9 @@ def make(dt: float, parameters: HedgeParameters | None = None) -> Committee:
 def test_a_level_turn_of_any_rate_is_felt_straight_down_the_seat(
     parameters: HedgeParameters, bank: float, speed: float
 ) -> None:
-    dt, errors = 1.0 / 60.0, []
+    dt, errors = 1.0 / 30.0, []
     method = make(dt, parameters)
-    for vehicle in level_turn(radians(bank), speed, dt, 3600):
+    for vehicle in level_turn(radians(bank), speed, dt, 1800):
         q_WS, w = method.step(vehicle)
         errors.append(angle_between(up_in_cabin(q_WS), flip(vehicle.f_B)))
     assert errors[0] < 1e-6
@@ -57,9 +57,9 @@ def test_perceptual_alone_is_trusted_at_the_start() -> None:
 
 def test_rates_that_no_force_agrees_with_are_left_out() -> None:
     """A vehicle that says it rolls for ever while its force stands: the cabin keeps with it."""
-    method = make(0.02)
-    for i in range(3000):
-        q_WS, w = method.step(VehicleState(i * 0.02, IDENTITY, (3.0, 0.0, 0.0), LEVEL))
+    method = make(0.04)
+    for i in range(1500):
+        q_WS, w = method.step(VehicleState(i * 0.04, IDENTITY, (3.0, 0.0, 0.0), LEVEL))
     assert angle_between(up_in_cabin(q_WS), (0.0, 0.0, 1.0)) < radians(1.0)
     assert w == pytest.approx(ZERO, abs=radians(1.0))
 
@@ -71,8 +71,8 @@ def test_no_more_is_felt_than_the_bound_for_any_vehicle(
 ) -> None:
     """The canals' feeling of what the cabin turns beyond the vehicle's rate."""
     bound = CueBound(parameters, dt)
-    for q_NB, w_B, f_B in sequence:
-        for _ in range(20):
+    for i, (q_NB, w_B, f_B) in enumerate(sequence):
+        for _ in range((20, 1, 5, 2)[i % 4]):
             bound.step(VehicleState(0.0, q_NB, w_B, f_B))  # type: ignore[arg-type]
     assert bound.exceeded == 0
 
@@ -114,8 +114,8 @@ def test_a_quaternion_of_the_other_sign_is_the_same_vehicle(parameters: HedgePar
 @BOTH
 def test_weightless_it_stands_or_turns_as_the_vehicle_does(parameters: HedgeParameters) -> None:
     """There is no force to go by; in the end it is at rest."""
-    method = make(1.0 / 60.0, parameters)
-    for vehicle in standing(IDENTITY, ZERO, 1.0 / 60.0, 6000):
+    method = make(1.0 / 20.0, parameters)
+    for vehicle in standing(IDENTITY, ZERO, 1.0 / 20.0, 2000):
         q_WS, w = method.step(vehicle)
     assert w == pytest.approx(ZERO, abs=1e-3)
     assert np.linalg.norm(q_WS) == pytest.approx(1.0, abs=1e-12)

@@ -7,12 +7,25 @@ from math import log, pi
 
 import numpy as np
 
-from atlas_cueing.cueing import HedgeParameters, StageParameters
+from atlas_cueing.cueing import HedgeParameters, Rotation, StageParameters
+from atlas_cueing.cueing.committee.committee import Committee
 from atlas_cueing.cueing.committee.weights import WeightParameters, Weights
+from atlas_cueing.cueing.method import rotation_of
 from atlas_cueing.cueing.stage.stage_cueing import StageCueing
 from atlas_cueing.evaluation import BLOCK_TICKS, LimitUse, RunColumns, violations
 from atlas_cueing.recording import Log
-from atlas_cueing.rotation import Vec3, conjugate, exp, flip, norm, rotate, subtract
+from atlas_cueing.rotation import (
+    IDENTITY,
+    ZERO,
+    Quat,
+    Vec3,
+    conjugate,
+    exp,
+    flip,
+    norm,
+    rotate,
+    subtract,
+)
 from atlas_cueing.scenario import load_platform
 from atlas_cueing.signals import TOPICS, Cue, Tick, VehicleState, tick_row
 from atlas_cueing.smoothing import Smoothing
@@ -47,6 +60,18 @@ def _vector(randomly: random.Random, size: float) -> Vec3:
     )
 
 
+class Overheard:
+    """A law that remembers its last cue, so that a committee and a test can ask it at once."""
+
+    def __init__(self, law: Rotation) -> None:
+        self._law = law
+        self.cue: tuple[Quat, Vec3] = IDENTITY, ZERO
+
+    def step(self, vehicle: VehicleState) -> tuple[Quat, Vec3]:
+        self.cue = self._law.step(vehicle)
+        return self.cue
+
+
 class CueBound:
     """Rides `hedge` and counts the ticks at which more is felt of its cue than may be.
 
@@ -57,11 +82,10 @@ class CueBound:
     def __init__(self, parameters: HedgeParameters, dt: float) -> None:
         self.exceeded, self.fullest = 0, 0.0
         self._turn = parameters.committee.turn
-        self._committee = parameters.rotation(dt)
-        self._members = [law.rotation(dt) for law in parameters.members()]
+        self._members = [Overheard(rotation_of(law, dt, ())) for law in parameters.members()]
+        self._committee = Committee(dt, self._members, parameters.committee)
         self._canals = [Canals(dt) for _ in self._members]
         self._own = Canals(dt)
-        self._first = True
 
     def step(self, vehicle: VehicleState) -> Cue:
         """The cue for the next state, looked at; at the first one members are at their start."""
@@ -69,10 +93,8 @@ class CueBound:
         q_WS, w_W = self._committee.step(vehicle)
         felt = norm(self._own.feel(subtract(rotate(conjugate(q_WS), w_W), w_S)))
         most = max(
-            norm(canals.feel(subtract(rotate(conjugate(q), w), w_S)))
-            for (q, w), canals in zip(
-                (member.step(vehicle) for member in self._members), self._canals, strict=True
-            )
+            norm(canals.feel(subtract(rotate(conjugate(member.cue[0]), member.cue[1]), w_S)))
+            for member, canals in zip(self._members, self._canals, strict=True)
         )
         turn = self._turn
         more = turn.felt + turn.rate_gain * norm(w_S) + turn.error_gain * pi

@@ -170,3 +170,41 @@ def test_the_platform_s_limits_are_the_plan_s(tmp_path: Path) -> None:
     while vehicle.advance():
         reached.append(abs(pipeline.step(vehicle.state).cue.p_WS_W[0]))
     assert 0.009 < max(reached) <= 0.01
+
+
+LOOKING = [
+    (method, f"cueing.method={method}", "cueing.look_ahead_s=0.5")
+    for method in ("perceptual", "hedge")
+]
+
+
+@pytest.mark.parametrize(("method", "chosen", "ahead"), LOOKING)
+def test_look_ahead_needs_the_whole_flight_and_says_so_without(
+    tmp_path: Path, method: str, chosen: str, ahead: str
+) -> None:
+    assert not loaded(tmp_path, chosen, "cueing.look_ahead_s=0").needs_whole_flight
+    scenario = loaded(tmp_path, chosen, ahead)
+    assert scenario.needs_whole_flight
+    with pytest.raises(
+        InputError,
+        match=rf"^scenario 'short': cueing\.look_ahead_s of method '{method}' needs the whole"
+        r" flight .*does not fly live; use run, batch or recue, or set it to 0$",
+    ):
+        build_pipeline(scenario, 0.01)
+
+
+@pytest.mark.parametrize(("method", "chosen", "ahead"), LOOKING)
+def test_with_look_ahead_the_cabin_tilts_before_the_push(
+    tmp_path: Path, method: str, chosen: str, ahead: str
+) -> None:
+    """At 1.01 s, known from 0.51 s on."""
+
+    def tilting(*settings: str) -> list[int]:
+        vehicle, pipeline = prepare(loaded(tmp_path, *settings), RecordedVehicle(PUSHED))
+        rates = [pipeline.step(vehicle.state).cue.w_WS_W]
+        while vehicle.advance():
+            rates.append(pipeline.step(vehicle.state).cue.w_WS_W)
+        return [i for i, w in enumerate(rates) if abs(w[1]) > 1e-9]
+
+    assert tilting(chosen)[0] == 101, method
+    assert tilting(chosen, ahead)[0] == 51, method
