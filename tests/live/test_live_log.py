@@ -47,7 +47,7 @@ def parked_and_again(rig: Rig) -> None:
     rig.bring_to(State.RUNNING)
     rig.press("park")
     rig.tick()
-    rig.until(State.PARKED, 10.0)
+    rig.until(State.PARKED, 60.0)
     rig.bring_to(State.RUNNING)
 
 

@@ -60,7 +60,7 @@ def test_there_and_back_with_every_method(method: str, platform: str) -> None:
     rig.until(State.RUNNING, 8.0)
     rig.press("park")
     rig.tick()
-    rig.until(State.PARKED, 10.0)
+    rig.until(State.PARKED, 60.0)
     assert geodesic(rig.motion.q_WS, IDENTITY) < 2e-3
     assert np.hypot.reduce(rig.motion.p_WS_W) < 2e-3
     assert rig.platform.needs_cueing
@@ -81,12 +81,12 @@ def test_a_turn_over_does_not_tear_the_cue_at_the_next_start() -> None:
     rig.until(lambda: rig.motion.q_WS[0] < -0.5, 20.0)
     rig.press("park")
     rig.tick()
-    rig.until(State.PARKED, 10.0)
+    rig.until(State.PARKED, 60.0)
     assert rig.motion.q_WS[0] < 0.0
     rig.bring_to(State.STOPPED)
     rig.press("reset")
     rig.tick()
-    rig.until(State.PARKED, 10.0)
+    rig.until(State.PARKED, 60.0)
     rig.bring_to(State.RUNNING)
     assert signs(columns(rig, "cue", "q_WS")) > 0.0
     assert signs(columns(rig, "motion", "q_WS")) > 0.0
