@@ -28,6 +28,7 @@ from .stamps import Series
 Factors: TypeAlias = Mapping[Part, Array]  # of each column, to SI
 _CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 MEASURED, FROM_ATTITUDE = "measured", "derivative of the attitude"
+_LEAST_NORM = 0.5  # of a quaternion; a smaller one is none (assumed)
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,10 +107,23 @@ def _attitude(
     """Return q_NB on the grid: turned into our axes first, since angles wrap and signs flip."""
     assert flight_map.attitude is not None  # noqa: S101 - the part is there
     series = parts["attitude"]
+    if flight_map.attitude.kind == "quaternion":
+        _check_norms(series)
     q_NB = attitude(series.values, flight_map.attitude, factors["attitude"])
     turned = replace(series, values=q_NB)
     on_grid = resample(turned, grid).values
     return continuous(on_grid / length(on_grid)[:, None])
+
+
+def _check_norms(series: Series) -> None:
+    """Raise InputError for a quaternion that has no direction."""
+    wrong = np.flatnonzero(~(length(series.values) > _LEAST_NORM))
+    if len(wrong):
+        k = int(wrong[0])
+        raise InputError(
+            f"{series.place(k)}: an attitude of norm {length(series.values[k : k + 1])[0]:.3g},"
+            f" allowed: norm > {_LEAST_NORM:g}, best 1"
+        )
 
 
 def _rates(

@@ -10,7 +10,6 @@ is a linear program whose root in s is the least use (Dinkelbach, Management Sci
 """
 
 import numpy as np
-from scipy.optimize import linprog
 
 from ..rotations import Array
 from .model import LoadModel
@@ -51,6 +50,8 @@ def _best(model: LoadModel, M: Array, F: Array, even: Array) -> Array:
 
 def _program(model: LoadModel, M: Array, fixed: Array, by_drive: Array, use: float) -> Array:
     """Minimise t over (F_d, t): +-F_i - use mu_i (fixed + by_drive F_d)_i <= t, R B^T F_d = M."""
+    from scipy.optimize import linprog  # takes a second to import
+
     count = len(model.wheels)
     grip = use * model.friction
     rows = [

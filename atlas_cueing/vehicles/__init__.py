@@ -21,7 +21,7 @@ from .rigid_body import RigidBodyFlight, RigidBodyVehicle
 from .signal_shapes import Signal
 from .signal_vehicle import SignalFlight, SignalVehicle
 from .track import TrackFlight, TrackVehicle
-from .track_ride import Car
+from .track_car import Car
 
 __all__ = [
     "AircraftFlight",

@@ -21,7 +21,6 @@ them, and the attitude keeps the momentum's direction by construction.
 from math import atan2, ceil, copysign, cos, hypot, sin, sqrt
 
 import numpy as np
-from scipy.special import ellipj, ellipkinc
 
 from ..rotation import (
     Mat3,
@@ -79,6 +78,8 @@ class EulerTop:
 
     def _solve(self, inertia: Vec3, w_B: Vec3) -> None:
         """Find amplitudes, modulus, frequency and phase, in the axes 1, 2, 3."""
+        from scipy.special import ellipkinc  # takes a second to import
+
         i1, i2, i3 = (_moment(row, inertia) for row in self._axes)
         w1, w2, w3 = apply(self._axes, w_B)
         # 2E I3 - M^2 and M^2 - 2E I1, as sums of terms of one sign
@@ -94,11 +95,15 @@ class EulerTop:
         self._u0 = float(ellipkinc(atan2(w2 / self._a2, w1 / self._a1), self._k2))
 
     def _rates_P(self, time: float) -> Vec3:
+        from scipy.special import ellipj
+
         sn, cn, dn, _ = ellipj(self._n * time + self._u0, self._k2)
         return (self._a1 * float(cn), self._a2 * float(sn), self._a3 * float(dn))
 
     def _precession(self, begin: float, end: float) -> float:
         """Return the turn about the momentum between two times, rad."""
+        from scipy.special import ellipj
+
         pieces = max(ceil((end - begin) * norm(self._w0) / _LONGEST), 1)
         h = (end - begin) / pieces
         times = begin + h * (np.arange(pieces)[:, None] + 0.5 + 0.5 * _NODES)

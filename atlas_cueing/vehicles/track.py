@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -13,7 +13,10 @@ from ..rotations import length
 from ..signals import VehicleState
 from .bounds import Bounds
 from .jsbsim.flights import DEFAULT_RATE_HZ
-from .track_ride import PER_POINT, Car, Ride, ride
+from .track_car import PER_POINT, Car
+
+if TYPE_CHECKING:
+    from .track_ride import Ride
 
 FEWEST_POINTS = 6  # that a quintic curve goes through
 MOST_STEPS = 400_000  # of the whole ride
@@ -133,11 +136,13 @@ class TrackVehicle:
 
 
 @lru_cache(maxsize=4)  # asked for its length, and then flown
-def whole_ride(flight: TrackFlight) -> Ride:
+def whole_ride(flight: TrackFlight) -> "Ride":
     """Return the ride from the first point to the end.
 
     Raises InputError for what is no track, and VehicleError for a car that does not leave.
     """
+    from .track_ride import ride  # loads scipy, for seconds
+
     objection = flight.objection()
     if objection:
         raise InputError(f"track: {objection}")

@@ -20,32 +20,17 @@ from numpy.typing import NDArray
 from scipy.interpolate import BSpline, make_interp_spline
 
 from ..errors import VehicleError
-from ..rotation import Vec3
 from ..rotations import Array, cross, length, multiply, rotate_back
 from ..signals import STANDARD_GRAVITY
 from .track_attitude import attitude_along
+from .track_car import PER_POINT, Car
 from .track_curve import Way, bank_along, spline_through, way_at
 
-PER_POINT = 16  # steps between two points of the track
 _SLOWEST = 0.05  # m/s; a car that slow has come to a stop
 _GRAVITY = np.array([0.0, 0.0, STANDARD_GRAVITY])  # N
 _CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 _FEWEST = 8  # steps that the car has to come
 _HALF = 0.5
-
-
-@dataclass(frozen=True, slots=True)
-class Car:
-    """What rides: speed at the first point (m/s), friction, drag (1/m) and speed of the lift (m/s).
-
-    head: of the rider from the track, m, forward, right, down.
-    """
-
-    speed: float
-    friction: float = 0.0
-    drag: float = 0.0
-    lift_speed: float = 0.0
-    head: Vec3 = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,7 +103,7 @@ def _speeds(way: Way, car: Car) -> tuple[Array, Array]:
             three = loss(k - 1, energy + 0.5 * h * two)
             energy += h / 6.0 * (one + 2.0 * (two + three) + loss(k, energy + h * three))
         kinetic = energy - STANDARD_GRAVITY * heights[k]
-        pulled = kinetic < least
+        pulled = kinetic <= least
         if pulled:
             energy, kinetic = least + STANDARD_GRAVITY * heights[k], least
         if kinetic <= 0.5 * _SLOWEST**2:

@@ -2,22 +2,30 @@
 
 import os
 import tracemalloc
+from contextlib import AbstractContextManager
 from pathlib import Path
 from threading import Thread
+from typing import Any
 
 import pytest
 
-from atlas_cueing.cli.live_extras import drives
+from atlas_cueing.cli.live_extras import drives as drives_of
 from atlas_cueing.errors import InputError
 from atlas_cueing.live.input.shared_key import LARGEST_KEY
+from atlas_cueing.scenario import load_scenario
 
 HERE = "127.0.0.1:5600"
+SCENARIO = Path(__file__).parents[2] / "scenarios/signal_sway.toml"
+
+
+def drives(address: str, key: Path) -> AbstractContextManager[Any]:
+    return drives_of(address, key, load_scenario(SCENARIO), listen=True)
 
 
 def test_a_file_of_the_largest_size_will_do(tmp_path: Path) -> None:
     """What is around the key does not count."""
     (tmp_path / "key").write_bytes(b"k" * 32 + b"\n" * (LARGEST_KEY - 32))
-    with drives(HERE, tmp_path / "key") as senders:
+    with drives(HERE, tmp_path / "key") as (senders, _):
         assert len(senders) == 1
 
 

@@ -37,6 +37,8 @@ class CommitteeParameters:
 
 COMMITTEE = CommitteeParameters()
 
+_LARGEST_FORCE = 1e6  # m/s^2; far beyond any vehicle
+
 
 class Committee:
     """A rotation that runs several others as virtual cabins, and turns with their weighted mean.
@@ -75,7 +77,8 @@ class Committee:
 
     def step(self, vehicle: VehicleState) -> tuple[Quat, Vec3]:
         """Give orientation q_WS and rate w_WS_W (rad/s) of the cue for the next vehicle state."""
-        w_S, f_S = cabin_rate(self._parameters.rotation_gain, vehicle), flip(vehicle.f_B)
+        w_S = cabin_rate(self._parameters.rotation_gain, vehicle)
+        f_S = _bounded(flip(vehicle.f_B))
         if self._parts is None:
             self._parts = self._begin(vehicle, w_S, f_S)
             self._ask(vehicle, self._parts[1])
@@ -110,3 +113,9 @@ class Committee:
         # where up will be at the end of the tick, of which the cabin has made the vehicle's part
         ahead = add(up_S, scale(self._dt, cross(up_S, self._draw.extra)))
         return self._draw.step(turn_to(up, ahead), extra, felt, w_S)
+
+
+def _bounded(f_S: Vec3) -> Vec3:
+    """Give the force, no larger than _LARGEST_FORCE: the square of a loss has to stay finite."""
+    size = norm(f_S)
+    return f_S if size <= _LARGEST_FORCE else scale(_LARGEST_FORCE, scale(1.0 / size, f_S))

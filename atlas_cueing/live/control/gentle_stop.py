@@ -9,8 +9,9 @@ SHARES with which
 - the axis does not turn round, if it can be helped by half of its jerk: an acceleration that brakes
   has to be brought to zero before the speed is, |v| >= a^2 / 2 s J.
 
-Wheels stop together: those that could stop sooner take the share with which they end with the last.
-With accelerations along the speeds the axis of rotation then stays what it was.
+Wheels stop together as far as their limits allow: those that could stop sooner take the share with
+which they end with the last. With accelerations along the speeds the axis of rotation then stays
+what it was.
 """
 
 # mypyc: runs every tick
