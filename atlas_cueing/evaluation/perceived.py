@@ -11,8 +11,8 @@ from .run_columns import RunColumns, mean_step
 from .statistics import Magnitudes, distance
 
 STEP = 1.0 / 60.0
-"""Time from one step of the observers to the next, s (assumed): a small part of the
-time in which a force draws `up`, 3 (1 - Ka) / (3 Kf + Kfw) = 1.125 s. Faster ticks are averaged, so that a run
+"""Time from one step of the observers to the next, s (assumed): a small part of the time in which
+a force draws `up`, 3 (1 - Ka) / (3 Kf + Kfw) = 1.125 s. Faster ticks are averaged, so that a run
 costs no more at 1 kHz than at 60 Hz."""
 
 MOST = 1 << 12
