@@ -54,14 +54,13 @@ def test_all_lines_of_shell_blocks_and_all_tools_that_are_named() -> None:
         ("tools/results_of_another_kind", "tools/results_of_another_kind"),
         (
             ".venv/bin/atlas-cueing live a.toml",
-            ".venv/bin/atlas-cueing live a.toml --rate 100 --duration 8",
+            ".venv/bin/atlas-cueing live a.toml --rate 100 --lead 80 --duration 8",
         ),
         (
             ".venv/bin/atlas-cueing live scenarios/live/flightgear.toml --duration 30",
-            (
-                ".venv/bin/atlas-cueing live scenarios/live/flightgear.toml --duration 30 --rate"
-                " 100 --duration 10"
-            ),
+            ".venv/bin/atlas-cueing live scenarios/live/flightgear.toml --duration 30 --rate 100"
+            " --lead 80 --duration 10 --pose p.json --from home",
+        ),
         ),
     ],
 )
