@@ -61,7 +61,6 @@ def test_all_lines_of_shell_blocks_and_all_tools_that_are_named() -> None:
             ".venv/bin/atlas-cueing live scenarios/live/flightgear.toml --duration 30 --rate 100"
             " --lead 80 --duration 10 --pose p.json --from home",
         ),
-        ),
     ],
 )
 def test_long_commands_are_shortened_by_their_own_options(command: str, run: str) -> None:
