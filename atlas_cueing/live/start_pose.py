@@ -81,6 +81,7 @@ def _end_of_log(file: Path, platform: Platform) -> Pose:
         raise InputError(f"--from {file}: no log with a motion: {error}") from error
 
     def three(table: dict[str, float], *fields: str) -> Vec3:
+        """Return three fields of a message as a vector."""
         x, y, z = (table[field] for field in fields)
         return (x, y, z)
 

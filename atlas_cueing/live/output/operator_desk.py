@@ -189,6 +189,7 @@ def _accept(
             return
 
         def reply(line: str) -> None:
+            """Send the answer to one line of the client."""
             with suppress(OSError):  # a client that reads nothing gets nothing
                 client.send(f"{desk.answer(line)}\n".encode())
 
