@@ -50,6 +50,7 @@ def test_all_lines_of_shell_blocks_and_all_tools_that_are_named() -> None:
     [
         ("tools/demo", "tools/demo"),
         ("tools/test", "tools/setup dev"),
+        ("tools/check", "tools/check tests/signals"),
         ("tools/results", "tools/results rudder_kick"),
         ("tools/results_of_another_kind", "tools/results_of_another_kind"),
         (

@@ -1,4 +1,7 @@
-"""Results at a URL, by fsspec (extra `cluster`) and its driver for that kind of URL, say s3fs for `s3://bucket/folder`."""
+"""Results at a URL, by fsspec (extra `cluster`) and its driver for that kind of URL.
+
+Say s3fs for `s3://bucket/folder`.
+"""
 
 import secrets
 from collections.abc import Iterable, Iterator

@@ -21,11 +21,11 @@ from ..errors import AtlasError, InputError
 from ..printable import printable
 from .batch import EPILOG as BATCH_EPILOG
 from .batch import batch_command
+from .catalogue import KEYS_EPILOG, LIST_EPILOG, NEW_EPILOG, keys_command, list_command, new_command
 from .compare import EPILOG as COMPARE_EPILOG
 from .compare import compare_command
 from .import_file import EPILOG as IMPORT_EPILOG
 from .import_file import import_command
-from .keys import KEYS_EPILOG, LIST_EPILOG, NEW_EPILOG, keys_command, list_command, new_command
 from .live import EPILOG as LIVE_EPILOG
 from .live import live_command
 from .operate import EPILOG as OPERATE_EPILOG

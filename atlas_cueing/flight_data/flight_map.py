@@ -27,7 +27,7 @@ from pydantic import BeforeValidator, model_validator
 
 from ..scenario.tables import THREE, Finite, ScenarioTable, number, object_to, refuse, text, whole
 from ..signals import STANDARD_GRAVITY
-from .units import UNITS, Quantity, factor
+from .column_units import UNITS, Quantity, factor
 
 Format: TypeAlias = Literal["csv", "ros", "ulog", "dataflash"]
 FORMATS: tuple[Format, ...] = ("csv", "ros", "ulog", "dataflash")

@@ -9,12 +9,10 @@ import numpy as np
 from ..errors import InputError
 from ..rotations import Array
 from ..scenario.recorded import MAX_RECORDING
+from .column_units import UNITS, Quantity, factor, unit_in
 from .flight_map import FlightMap
 from .grid import lay_grid, natural_step
-from .readers import READERS
-from .samples import Part, Progress, Samples
-from .stamps import GAP, Series, in_order, origin
-from .states import (
+from .gridded_flight import (
     MEASURED,
     GriddedFlight,
     check_believable,
@@ -22,7 +20,9 @@ from .states import (
     unexplained,
     vertical_share,
 )
-from .units import UNITS, Quantity, factor, unit_in
+from .readers import READERS
+from .samples import Part, Progress, Samples
+from .stamps import GAP, Series, in_order, origin
 
 _LEAST_S = 1.0  # of a piece between two gaps; a shorter one is left out
 _STATE_BYTES = 150  # of a log, unpacked

@@ -10,8 +10,8 @@ from ..atomic_file import write_whole
 from ..errors import OutputError
 from ..recording import write_vehicle_log
 from .flight_map import FlightMap
+from .gridded_flight import GriddedFlight
 from .import_flight import ImportedFlights
-from .states import GriddedFlight
 
 
 def write_flight(

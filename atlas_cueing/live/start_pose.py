@@ -9,7 +9,7 @@ from ..recording import read_log
 from ..rotation import ZERO, Vec3
 from ..scenario import Platform
 from ..wheels import Wheels
-from .control.axis import six_axes
+from .control.certified_axis import six_axes
 from .control.command import Command
 from .control.pose import Pose, pose_after_stop
 from .output.pose_file import read_pose

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..cueing.own.method import RESERVED
+from ..cueing.own.own_method import RESERVED
 from ..cueing.own.sources import is_file_reference
 from ..errors import InputError, MethodError, OutputError, ScenarioError
 from ..recording import Log, McapRecorder

@@ -7,14 +7,14 @@ import numpy as np
 
 from ..run import evaluate_flight
 from .checks.actuators import check_actuators
-from .checks.contact_loads import check_contact_loads, traction_notes
 from .checks.deadlines import check_deadlines, punctuality_notes
 from .checks.felt_force import check_felt_force
 from .checks.finite import check_finite
 from .checks.limited_flags import check_limited_flags
 from .checks.log_times import check_log_times
+from .checks.logged_loads import check_contact_loads, traction_notes
 from .checks.orientation import check_orientation
-from .checks.status import check_status, state_notes
+from .checks.run_status import check_status, state_notes
 from .checks.timestamps import check_timestamps
 from .finding import Finding
 from .recorded_run import RecordedRun, open_run

@@ -7,7 +7,7 @@ from pydantic import ValidationError, ValidationInfo, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from ..cueing.methods import METHODS
-from ..cueing.own.method import OwnMethod
+from ..cueing.own.own_method import OwnMethod
 from ..cueing.own.sources import (
     installed_methods,
     is_file_reference,

@@ -107,7 +107,7 @@ def test_another_method_under_the_same_name_does_not_stand_in(
     """As where the log's file was exchanged, or a package is there in another version."""
     own("run", "s.toml", *OWN, TRUST)
     monkeypatch.setattr(
-        "atlas_cueing.cueing.own.method.OwnMethod.metadata", lambda _: {"method_version": "2.0"}
+        "atlas_cueing.cueing.own.own_method.OwnMethod.metadata", lambda _: {"method_version": "2.0"}
     )
     with pytest.raises(InputError, match=r"method_version = '1\.0'.*here: .*'2\.0'"):
         cue_again("short.mcap", [], "new.mcap", trust_models=True)

@@ -15,7 +15,7 @@ from types import ModuleType
 from typing import Any, Final
 
 from ...errors import InputError
-from .method import OwnMethod, told
+from .own_method import OwnMethod, told
 
 GROUP: Final = "atlas_cueing.methods"
 LARGEST_FILE: Final = 256 * 1024  # bytes of source; a method here has 3 kB

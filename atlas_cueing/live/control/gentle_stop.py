@@ -1,9 +1,9 @@
 """The stop of a hold: as the guard's, but with a share of jerk and acceleration.
 
-Each axis flies the shortest stop that a smaller jerk s J and acceleration s A allow (`axis`), from
-its present position, speed and acceleration; so what it flies keeps the platform's own limits,
-whatever they are, and a rider feels s times the jerk of a fault's stop. The share is the least of
-SHARES with which
+Each axis flies the shortest stop that a smaller jerk s J and acceleration s A allow
+(`certified_axis`), from its present position, speed and acceleration; so what it flies keeps the
+platform's own limits, whatever they are, and a rider feels s times the jerk of a fault's stop. The
+share is the least of SHARES with which
 
 - speed and travel keep their limits (with s = 1 they do, for that stop has been certified), and
 - the axis does not turn round, if it can be helped by half of its jerk: an acceleration that brakes
@@ -21,7 +21,7 @@ from math import isinf
 from typing import Final
 
 from ...rotation import Vec3
-from .axis import AxisLimits, CertifiedStop
+from .certified_axis import AxisLimits, CertifiedStop
 
 # of jerk and acceleration; 0.4 stops 1.5 rad/s of the full-scale platform in 0.7 s (assumed)
 SHARES: Final = (0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0 - 1e-7)

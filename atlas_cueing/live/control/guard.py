@@ -30,7 +30,7 @@ from math import inf, ulp
 from ...errors import InputError
 from ...rotation import ZERO
 from ...signals import StageLimits, WheelLimits
-from .axis import AxisLimits, CertifiedStop, Checks
+from .certified_axis import AxisLimits, CertifiedStop, Checks
 from .command import Command, axes_of, command_from
 
 _EARLY = 1e-6  # share of a tick by which a command may be early, beside the rounding of its time

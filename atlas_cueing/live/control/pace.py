@@ -11,7 +11,7 @@ from math import cbrt, sqrt
 from typing import Final
 
 from ...rotation import Mat3, Vec3, apply, norm
-from .axis import AxisLimits
+from .certified_axis import AxisLimits
 from .trajectories import PEAK_BEND, PEAK_RATE, SHORTEST_PARKING, calm_time
 
 _PEAK_JERK: Final = 60.0

@@ -22,7 +22,7 @@ from ...rotation import (
     subtract,
 )
 from ...signals import Cue, Motion, StageLimits, Tick, VehicleState, WheelLimits, WheelSpeeds
-from .axis import six_axes
+from .certified_axis import six_axes
 from .command import Command, command_from
 from .gentle_stop import GentleStop
 from .input_monitor import ENGAGE_TIME, RESUME_TIME

@@ -19,7 +19,7 @@ from ...rotation import (
     normalise,
     subtract,
 )
-from .axis import AxisLimits
+from .certified_axis import AxisLimits
 from .command import Command, axes_of
 
 AT_PARK: Final = 1e-3  # rad and m from upright in the centre

@@ -1,7 +1,7 @@
 """The motion of one axis between two set points."""
 
 from ...rotation import Vec3
-from ..control.axis import AxisLimits
+from ..control.certified_axis import AxisLimits
 
 
 class Bridge:

@@ -11,7 +11,7 @@ from ...signals import StageLimits, Tick, WheelLimits
 from ...signals import Timing as TickTiming
 from ...telemetry import Ring, RingReader
 from ...telemetry.child_process import ChildProcess, Left
-from ..control.axis import six_axes
+from ..control.certified_axis import six_axes
 from ..control.command import Command, axes_of, command_from
 from ..control.drive_monitor import moves
 from ..control.pose import Pose, pose_after_stop

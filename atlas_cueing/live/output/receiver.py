@@ -13,7 +13,7 @@ from typing import Protocol
 from ...errors import SetPointError
 from ...rotation import ZERO, Vec3
 from ...signals import StageLimits, WheelLimits
-from ..control.axis import six_axes
+from ..control.certified_axis import six_axes
 from ..control.command import Command, axes_of, command_from
 from ..control.guard import breach_of
 from .bridge import Bridge

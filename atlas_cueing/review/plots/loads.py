@@ -7,7 +7,7 @@ import plotly.graph_objects as go
 from numpy.typing import NDArray
 
 from ...rotations import Array
-from ..checks.contact_loads import logged_loads
+from ..checks.logged_loads import logged_loads
 from ..recorded_run import RecordedRun
 from .downsample import thinned
 from .style import AXES, FAULT, ROW, coloured, line, styled, time_rows

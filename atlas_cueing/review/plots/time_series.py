@@ -8,7 +8,7 @@ import plotly.graph_objects as go
 
 from ...printable import html_text
 from ...rotations import Array
-from ..checks.status import state_intervals
+from ..checks.run_status import state_intervals
 from ..finding import Finding
 from ..recorded_run import RecordedRun
 from ..verdict import Review

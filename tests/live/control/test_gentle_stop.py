@@ -8,7 +8,7 @@ import pytest
 from hypothesis import Phase, assume, example, given, settings
 from hypothesis import strategies as st
 
-from atlas_cueing.live.control.axis import AxisLimits
+from atlas_cueing.live.control.certified_axis import AxisLimits
 from atlas_cueing.live.control.gentle_stop import GentleStop
 from atlas_cueing.live.control.state_machine import State
 from atlas_cueing.rotation import Vec3, geodesic

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from atlas_cueing.live.control.axis import CertifiedStop as _Stop
+from atlas_cueing.live.control.certified_axis import CertifiedStop as _Stop
 from atlas_cueing.live.control.command import Command
 from atlas_cueing.live.control.guard import Guard
 from atlas_cueing.smoothing import Stop

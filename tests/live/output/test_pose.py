@@ -11,7 +11,7 @@ import pytest
 from waiting import until
 
 from atlas_cueing.errors import InputError, OutputError
-from atlas_cueing.live.control.axis import six_axes
+from atlas_cueing.live.control.certified_axis import six_axes
 from atlas_cueing.live.control.pose import Pose, pose_after_stop
 from atlas_cueing.live.control.state_machine import State
 from atlas_cueing.live.output.pose_file import read_pose, write_pose

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from pydantic import BaseModel, Field
 
-from atlas_cueing.cueing.own.method import LARGEST_RATE, CheckedRotation, OwnMethod
+from atlas_cueing.cueing.own.own_method import LARGEST_RATE, CheckedRotation, OwnMethod
 from atlas_cueing.cueing.parameter import Choice, Range, Switch
 from atlas_cueing.errors import InputError, MethodError
 from atlas_cueing.signals import VehicleState
@@ -64,7 +64,7 @@ def test_vectors_of_any_kind_become_tuples_of_floats(answer: Any) -> None:
         (((1.1, 0.0, 0.0, 0.0), ZERO), "q_WS of norm 1.1, allowed: 1 within 0.001"),
         (((0.0, 0.0, 0.0, 0.0), ZERO), "q_WS of norm 0"),
         ((UPRIGHT, (0.0, 0.0, 1e200)), f"allowed: at most {LARGEST_RATE:g} rad/s"),
-        (ZeroDivisionError("by me"), "ZeroDivisionError: by me (test_method.py, line"),
+        (ZeroDivisionError("by me"), "ZeroDivisionError: by me (test_own_method.py, line"),
         (SystemExit(3), "SystemExit: 3"),
         (RecursionError("a\nb"), "RecursionError: a b"),
     ],

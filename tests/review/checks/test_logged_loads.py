@@ -8,7 +8,7 @@ import pytest
 from atlas_cueing.loads import balance, load_columns
 from atlas_cueing.recording import TopicColumns
 from atlas_cueing.review import RecordedRun
-from atlas_cueing.review.checks.contact_loads import check_contact_loads, traction_notes
+from atlas_cueing.review.checks.logged_loads import check_contact_loads, traction_notes
 from atlas_cueing.review.loads_again import loads_again
 from atlas_cueing.scenario import Platform, load_platform, presets
 from atlas_cueing.signals import LOADS

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from atlas_cueing.review import RecordedRun
-from atlas_cueing.review.checks.status import JUMP, check_status, state_notes
+from atlas_cueing.review.checks.run_status import JUMP, check_status, state_notes
 from atlas_cueing.review.own_rotations import from_vector, product
 
 from ..runs import coning, with_flight, with_states
