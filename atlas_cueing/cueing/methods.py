@@ -22,4 +22,4 @@ METHODS: Mapping[str, Method] = {
 CAUSAL_METHODS = tuple(name for name, method in METHODS.items() if not method.needs_flight)
 """The methods that need the past alone, so that they fly anywhere."""
 
-DEFAULT_METHOD = "blend"
+DEFAULT_METHOD = "hedge"

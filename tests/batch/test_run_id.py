@@ -11,7 +11,7 @@ from atlas_cueing.scenario import load_scenario
 
 def test_it_reads_well_and_is_a_file_name(load: Load) -> None:
     name, flown, method, code = run_id(load()).split("-")
-    assert (name, flown, method) == ("short", "c1722", "blend")
+    assert (name, flown, method) == ("short", "c1722", "hedge")
     assert len(code) == 12
     assert set(code) <= set(string.hexdigits)
 
@@ -19,13 +19,13 @@ def test_it_reads_well_and_is_a_file_name(load: Load) -> None:
 def test_whatever_changes_the_log_changes_it(load: Load, monkeypatch: pytest.MonkeyPatch) -> None:
     changes = [
         "duration_s=2",
-        "cueing.align_rate_deg_s=2",
+        "cueing.memory_s=2",
         "platform.wheel_limits.speed_rad_s=20",
         "recording.chunk_ticks=17",
     ]
     ids = [run_id(load()), *(run_id(load(change)) for change in changes)]
     assert len(set(ids)) == len(ids)
-    assert run_id(load("cueing.align_rate_deg_s=3.0")) == ids[0]  # the default, said aloud
+    assert run_id(load("cueing.memory_s=5.0")) == ids[0]  # the default, said aloud
     monkeypatch.setattr(module, "_version", lambda _: b"another")
     assert run_id(load()) not in ids
 
@@ -35,7 +35,7 @@ def test_a_users_script_counts_by_its_content(load: Load, tmp_path: Path) -> Non
     load()
     settings = ["vehicle.script=my flight.xml"]
     first = run_id(load_scenario(tmp_path / "s.toml", settings, trust_models=True))
-    assert first.startswith("short-my_flight-blend-")
+    assert first.startswith("short-my_flight-hedge-")
     (tmp_path / "my flight.xml").write_text("<runscript />")
     assert run_id(load_scenario(tmp_path / "s.toml", settings, trust_models=True)) != first
 

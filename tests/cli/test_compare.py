@@ -12,16 +12,16 @@ from .conftest import Command
 @pytest.fixture
 def logs(command: Command) -> tuple[str, str]:
     """The same flight by two methods."""
-    command("run", "s.toml", "-o", "blend.mcap")
+    command("run", "s.toml", "-o", "hedge.mcap")
     command("run", "s.toml", "-o", "attitude.mcap", "--set", "cueing.method=attitude")
-    return "blend.mcap", "attitude.mcap"
+    return "hedge.mcap", "attitude.mcap"
 
 
 def test_for_people(command: Command, logs: tuple[str, str]) -> None:
     ended = command("compare", *logs)
     assert (ended.status, ended.err) == (0, "")
     lines = ended.out.splitlines()
-    assert lines[0].split() == ["blend", "attitude"]
+    assert lines[0].split() == ["hedge", "attitude"]
     assert lines[1].split() == ["verdict", "clean", "clean"]
     assert (
         re.fullmatch(r"direction rms deg +\d+\.\d{3} +\d+\.\d{3}", lines[5])
@@ -32,7 +32,7 @@ def test_for_people(command: Command, logs: tuple[str, str]) -> None:
 
 def test_for_programs(command: Command, logs: tuple[str, str]) -> None:
     table = json.loads(command("compare", *logs, "--json").out)
-    assert table["names"] == ["blend", "attitude"]
+    assert table["names"] == ["hedge", "attitude"]
     assert table["metrics"]["ticks"] == [55.0, 55.0]
     assert [log["verdict"] for log in table["logs"]] == ["clean", "clean"]
 
@@ -41,7 +41,7 @@ def test_other_flights_only_when_told(command: Command, logs: tuple[str, str]) -
     command("run", "s.toml", "-o", "other.mcap", "--set", "vehicle.script=c1723")
     ended = command("compare", logs[0], "other.mcap")
     assert (ended.status, ended.out) == (2, "")
-    assert ended.err.startswith("error: other.mcap is another flight than blend.mcap: ")
+    assert ended.err.startswith("error: other.mcap is another flight than hedge.mcap: ")
     assert "--different-flights" in ended.err
     assert command("compare", logs[0], "other.mcap", "--different-flights").status == 0
 

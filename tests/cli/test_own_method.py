@@ -87,17 +87,17 @@ def test_its_log_is_cued_again_by_the_same_method_or_by_none(own: Command) -> No
     assert not Path("again.mcap").exists()
     assert own("recue", "short.mcap", "-o", "again.mcap", TRUST).status == 0
     assert same_cueing("short.mcap", "again.mcap")
-    blend = own("recue", "short.mcap", "-o", "blend.mcap", "--set", "cueing.method=blend")
-    assert blend.status == 0, blend.err
-    assert same_cueing("blend.mcap", "other.mcap")
-    assert not [key for key in read_log("blend.mcap").metadata if key.startswith("method_")]
+    hedge = own("recue", "short.mcap", "-o", "hedge.mcap", "--set", "cueing.method=hedge")
+    assert hedge.status == 0, hedge.err
+    assert same_cueing("hedge.mcap", "other.mcap")
+    assert not [key for key in read_log("hedge.mcap").metadata if key.startswith("method_")]
     Path("half_turn.py").write_text(HALF)
     mine = own("recue", "other.mcap", "-o", "mine.mcap", *OWN, TRUST)
     assert mine.status == 0, mine.err
     assert same_cueing("mine.mcap", "short.mcap")
     assert own("compare", "short.mcap", "other.mcap").out.split()[:2] == [
         "half_turn.py:H..",
-        "blend",
+        "hedge",
     ]
 
 

@@ -33,7 +33,7 @@ def test_a_review_for_people(command: Command, log: Path) -> None:
     lines = ended.out.splitlines()
     assert re.fullmatch(r"verdict +clean", lines[0])
     assert re.fullmatch(r"result +ok", lines[1])
-    assert re.fullmatch(r"scenario +short, blend on atlas-2.9m", lines[3])
+    assert re.fullmatch(r"scenario +short, hedge on atlas-2.9m", lines[3])
     assert any(re.fullmatch(r"force rms m/s2 +\d+\.\d{3}", line) for line in lines)
     assert "finding" not in ended.out
 

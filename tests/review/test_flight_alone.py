@@ -84,7 +84,8 @@ def test_it_is_cued_by_the_settings(flight: Path, tmp_path: Path) -> None:
     """The same vehicle on the same platform gives the same cue, motion and wheels."""
     log, new = alone(tmp_path, flight), tmp_path / "new.mcap"
     (tmp_path / "platform.toml").write_bytes(read_log(flight).attachments["platform.toml"])
-    cue_again(log, [f"platform.file={tmp_path / 'platform.toml'}"], new)
+    settings = ["cueing.method=blend", f"platform.file={tmp_path / 'platform.toml'}"]
+    cue_again(log, settings, new)
     one, other = read_log(flight), read_log(new)
     for topic, table in one.tables.items():
         assert np.array_equal(table.values, other.tables[topic].values), topic

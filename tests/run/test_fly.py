@@ -99,7 +99,7 @@ def test_a_real_flight(load: Load, tmp_path: Path) -> None:
     ]
     assert log.attachments == scenario.attachments()
     assert log.metadata["scenario"] == "short"
-    assert log.metadata["method"] == "blend"
+    assert log.metadata["method"] == "hedge"
     assert log.metadata["platform"] == "atlas-2.9m"
     assert (log.metadata["result"], log.metadata["reason"]) == ("ok", "")
     assert all(
@@ -131,9 +131,7 @@ def test_the_same_run_gives_the_same_bytes(load: Load, tmp_path: Path) -> None:
         run_scenario(load(), tmp_path / f"{i}.mcap").log.read_bytes() for i in range(2)
     )
     assert first == second
-    other = run_scenario(
-        load("cueing.align_rate_deg_s=1"), tmp_path / "other.mcap"
-    ).log.read_bytes()
+    other = run_scenario(load("cueing.memory_s=1"), tmp_path / "other.mcap").log.read_bytes()
     assert other != first
 
 

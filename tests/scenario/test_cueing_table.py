@@ -242,9 +242,9 @@ def test_without_a_travel_the_platform_s_counts() -> None:
     assert adapter.validate_python({"method": "force"}).stage_parameters().travel == (inf, inf, inf)
 
 
-def test_blend_is_the_default() -> None:
-    assert DEFAULT_METHOD == "blend"
-    assert isinstance(adapter.validate_python({}), TABLES["blend"])
+def test_hedge_is_the_default() -> None:
+    assert DEFAULT_METHOD == "hedge"
+    assert isinstance(adapter.validate_python({}), TABLES["hedge"])
 
 
 def test_every_key_of_preview_arrives() -> None:

@@ -99,12 +99,12 @@ def test_platform_mistakes_name_the_file(refused: Refused) -> None:
 
 
 def test_another_method_leaves_the_files_own_keys_behind(tmp_path: Path) -> None:
-    path = written(tmp_path, SCRIPT + "[cueing]\nalign_time_s = 3.0\nforce_gain = 0.5")
+    path = written(tmp_path, SCRIPT + "[cueing]\nmemory_s = 3.0\nforce_gain = 0.5")
     scenario = load_scenario(path, ["cueing.method=attitude", "cueing.return_time_s=4"])
     assert scenario.file.cueing.method == "attitude"
     assert scenario.file.cueing.force_gain == (0.5, 0.5, 0.5)
-    with pytest.raises(ScenarioError, match=r"--set: cueing\.align_time_s = 2: unknown key"):
-        load_scenario(path, ["cueing.method=attitude", "cueing.align_time_s=2"])
+    with pytest.raises(ScenarioError, match=r"--set: cueing\.memory_s = 2: unknown key"):
+        load_scenario(path, ["cueing.method=attitude", "cueing.memory_s=2"])
 
 
 @pytest.mark.parametrize("method", [m for m in CAUSAL_METHODS if METHODS[m].parameters])

@@ -81,7 +81,7 @@ def test_a_script_named_as_an_own_one_stays_the_users(tmp_path: Path) -> None:
 
 def test_defaults_are_written_out(tmp_path: Path) -> None:
     text = loaded(tmp_path, SCRIPT).scenario_toml()
-    for key in TABLES["blend"].model_fields:
+    for key in TABLES["hedge"].model_fields:
         assert f"{key} = " in text or f"[cueing.{key}]" in text
     assert "chunk_ticks = 512" in text
 

@@ -10,21 +10,22 @@ from atlas_cueing.vehicles import own_scripts
 from .texts import AIRCRAFT, SCRIPT
 
 SCENARIOS = Path(__file__).parents[2] / "scenarios"
+BLEND = SCRIPT + '[cueing]\nmethod = "blend"\n'
 
 
-def variants(folder: Path, sweep: str, *overrides: str, text: str = SCRIPT) -> list[Variant]:
+def variants(folder: Path, sweep: str, *overrides: str, text: str = BLEND) -> list[Variant]:
     path = folder / "s.toml"
     path.write_text(f"{text}\n[sweep]\n{sweep}")
     return load_variants(path, overrides)
 
 
 def settings(
-    folder: Path, sweep: str, *overrides: str, text: str = SCRIPT
+    folder: Path, sweep: str, *overrides: str, text: str = BLEND
 ) -> list[dict[str, object]]:
     return [variant.settings for variant in variants(folder, sweep, *overrides, text=text)]
 
 
-def mistakes(folder: Path, sweep: str, *overrides: str, text: str = SCRIPT) -> list[str]:
+def mistakes(folder: Path, sweep: str, *overrides: str, text: str = BLEND) -> list[str]:
     with pytest.raises(ScenarioError) as refusal:
         variants(folder, sweep, *overrides, text=text)
     return str(refusal.value).replace(f"{folder}/", "").splitlines()
@@ -58,7 +59,7 @@ def test_a_grid_has_every_combination_in_the_order_of_the_file(tmp_path: Path) -
 def test_a_run_of_a_sweep_is_the_scenario_with_its_settings(tmp_path: Path) -> None:
     """What a sweep resolves to has no trace of it, so that its log alone can be flown again."""
     second = variants(tmp_path, "platform.wheel_limits.speed_rad_s = [31, 20]")[1].scenario
-    (tmp_path / "plain.toml").write_text(SCRIPT)
+    (tmp_path / "plain.toml").write_text(BLEND)
     assert (
         second.attachments()
         == load_scenario(

@@ -31,7 +31,7 @@ class LossParameters:
     force_unit: float = 0.17
     rate_unit: float = radians(1.732)
     tilt_unit: float = radians(1.0)
-    judge: str = "observer"
+    judge: str = "organs"
 
 
 LOSS = LossParameters()

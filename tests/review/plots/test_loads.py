@@ -6,7 +6,7 @@ import pytest
 from atlas_cueing.review.plots.loads import loads_over_time, torque_and_speed
 from atlas_cueing.review.plots.style import FAULT
 
-from ..checks.test_contact_loads import AT, changed, with_loads
+from ..checks.test_logged_loads import AT, changed, with_loads
 from ..runs import coning
 
 
