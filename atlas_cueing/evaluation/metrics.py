@@ -2,8 +2,9 @@
 
 from itertools import chain
 
+from .conditional_metrics import CONSISTENCY, CONTACT_LOADS, RELATIVE
 from .metric import Metric, Shown
-from .metric_table import CONSISTENCY, CONTACT_LOADS, METRICS, RELATIVE
+from .metric_table import METRICS
 from .run_columns import Figures, RunColumns
 
 DECLARED: dict[str, Metric] = {

@@ -1,16 +1,11 @@
 """Records ticks in an MCAP log, byte for byte the same for the same run."""
 
-import errno
-import fcntl
-import os
-import stat
 from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from struct import Struct
 
 import numpy as np
 
-from ..atomic_file import Destination
 from ..errors import OutputError
 from ..printable import utf8
 from ..rotation import Vec3
@@ -28,14 +23,13 @@ from ..signals import (
 )
 from .chunk import ELAPSED, ChunkEncoder, Extra, with_felt, with_loads
 from .container import Container
+from .part_file import PartFile
 from .schemas import STATUS, STATUS_SCHEMA, TF, message_class, schema_of, status_schema
 from .wire import EPOCH_NS, LATEST_S, Times, live_log_times, log_times, record_template
 
 RUN_METADATA = "atlas.run"
 MAX_CHUNK_TICKS = 16384  # 16 MB of messages: well inside what the reader will unpack
 _NAMES = (*(topic.name for topic in ALL_TOPICS), STATUS, TF)
-# Neither a link is followed nor a FIFO's reader waited for.
-_OPENING = os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW | os.O_NONBLOCK
 _BEFORE_START = -1.0  # s; no tick yet
 _pack = Struct(f"{ROW}d").pack
 
@@ -84,7 +78,6 @@ class McapRecorder:
         Raises OutputError when the file cannot be written, a topic is unknown, or a chunk is too
         large or empty.
         """
-        self._file = -1
         _check_options(chunk_ticks, skip_topics)
         self._path = Path(path)
         self._head_S = head_S
@@ -102,8 +95,7 @@ class McapRecorder:
         self._latest_log_time = started_ns or EPOCH_NS
         self._failure = ""
         try:
-            self._destination = Destination(self._path)
-            self._open()
+            self._file = PartFile(self._path)
             self._start(attachments, skip_topics)
         except OSError as error:
             raise self._fail(error) from error
@@ -111,7 +103,7 @@ class McapRecorder:
     @property
     def part(self) -> Path:
         """Path of the log until it is complete, beside the real file."""
-        return self._destination.path.with_name(f"{self._destination.path.name}.part")
+        return self._file.path
 
     def append(self, tick: Tick) -> None:
         """Keep one tick. Raises OutputError when this or any earlier chunk could not be written."""
@@ -139,7 +131,7 @@ class McapRecorder:
         """Let the disk take what was written up to now, against a power cut; raise as `append`."""
         self._refuse_after_failure()
         try:
-            os.fdatasync(self._file)
+            self._file.sync()
         except OSError as error:
             raise self._fail(error) from error
 
@@ -154,9 +146,7 @@ class McapRecorder:
             metadata = {utf8(key): utf8(value) for key, value in pairs.items()}
             self._container.add_metadata(RUN_METADATA, metadata)
             self._container.finish()
-            os.fsync(self._file)  # or a power cut could leave the name without its bytes
-            self._release()
-            self._destination.take(self.part)
+            self._file.complete()
             self._stop("the recorder is closed")
         except OSError as error:
             raise self._fail(error) from error
@@ -167,30 +157,11 @@ class McapRecorder:
         It is harmless after `close`.
         """
         self._stop("the recorder is closed")
-        self._release()
-
-    def __del__(self) -> None:
-        self._release()
-
-    def _release(self) -> None:
-        file, self._file = self._file, -1
-        if file >= 0:
-            os.close(file)
-
-    def _open(self) -> None:
-        """Open an empty file that no other process writes."""
-        if self.part.is_symlink():
-            raise OSError(errno.ELOOP, f"{self.part} is a symbolic link")
-        self._file = os.open(self.part, _OPENING, 0o666)
-        if not stat.S_ISREG(os.fstat(self._file).st_mode):
-            raise OSError(errno.EINVAL, f"{self.part} is no regular file")
-        _hold(self._file)
-        if os.fstat(self._file).st_size:
-            os.ftruncate(self._file, 0)
+        self._file.release()
 
     def _start(self, attachments: Mapping[str, bytes], skip: Collection[str]) -> None:
         """Write what comes before the first tick."""
-        self._container = Container(self._write)
+        self._container = Container(self._file.write)
         names = [
             name
             for name in (*(topic.name for topic in self._topics), STATUS, TF)
@@ -273,12 +244,6 @@ class McapRecorder:
             )
             self._refuse_after_failure()
 
-    def _write(self, data: bytes) -> None:
-        """Write all of data, or raise OSError: a full disk first takes a part of it."""
-        view = memoryview(data)
-        while view:
-            view = view[os.write(self._file, view) :]
-
     def _fail(self, error: OSError) -> OutputError:
         """Latch the first error: after a full disk later writes may succeed and leave a hole."""
         self._stop(error.strerror or str(error))
@@ -292,17 +257,6 @@ class McapRecorder:
         if self._failure:
             self._rows.clear()
             raise OutputError(self._failure)
-
-
-def _hold(file: int) -> None:
-    """Keep others from writing the same log, until it is closed.
-
-    Raises OSError while another run holds it.
-    """
-    try:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError as error:
-        raise OSError(error.errno, "another run is writing it") from error
 
 
 def _check_options(chunk_ticks: int, skip_topics: Collection[str]) -> None:
