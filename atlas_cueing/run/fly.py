@@ -41,7 +41,7 @@ def run_scenario(
     log: str | Path,
     *,
     progress: Progress | None = None,
-    opened: Open = open_vehicle,
+    opened: Open | None = None,
 ) -> RunResult:
     """Fly `scenario` and write `log`, which is replaced if it exists.
 
@@ -63,7 +63,7 @@ def run_scenario(
 
     """
     begun, log = perf_counter(), Path(log)
-    flight = _prepared(scenario, opened)
+    flight = _prepared(scenario, opened or open_vehicle)
     evaluator = Evaluator(scenario.platform)
     recorder = open_recorder(scenario, log, observer=evaluator.add)
     sink = _RunLog(recorder, progress or (lambda _: None))
