@@ -223,11 +223,12 @@ def _searched_on(front: "Front") -> list[str]:
 
 
 def _table(front: "Front", notes: Sequence[str], folder: Path) -> str:
-    from ..design.design_page import COLUMNS, cell, name_of
+    from ..design.design_page import cell, name_of, shown_columns
 
-    rows = [["layout", *(f"{head} {unit}".strip() for _, head, unit, _, _ in COLUMNS)]]
+    columns = shown_columns(front)
+    rows = [["layout", *(f"{head} {unit}".strip() for _, head, unit, _, _ in columns)]]
     for k, row in enumerate(front.rated):
-        cells = [cell(row, key, factor, decimals) for key, _, _, factor, decimals in COLUMNS]
+        cells = [cell(row, key, factor, decimals) for key, _, _, factor, decimals in columns]
         rows.append([name_of(front, k), *cells])
     words = [head.split() for head in rows[0]]
     tall = max(map(len, words))

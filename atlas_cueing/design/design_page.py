@@ -33,6 +33,18 @@ COLUMNS = (  # key, head, unit, factor, decimals
 )
 """Columns of the table, here and on the terminal: figure, head, unit, factor and decimals."""
 
+_IF_VARIED = ("wheel_radius_m", "gear", "ripple_rms")
+
+
+def shown_columns(front: Front) -> list[tuple[str, str, str, float, int]]:
+    """The columns of a table; some only where the layouts differ in them."""
+    return [
+        column
+        for column in COLUMNS
+        if column[0] not in _IF_VARIED
+        or len({float(row.to_json()[column[0]]) for row in front.rated}) > 1
+    ]
+
 
 def design_page(
     front: Front, title: str, flights: Sequence[FlightName], notes: Sequence[str]
@@ -44,7 +56,7 @@ def design_page(
     remarks = "".join(f"<p>{html_text(note)}</p>" for note in notes)
     heads = "".join(
         f"<th><span>{html_text(head)}</span><small>{html_text(unit)}</small></th>"
-        for _, head, unit, _, _ in COLUMNS
+        for _, head, unit, _, _ in shown_columns(front)
     )
     body = "\n".join(_row(front, k) for k in range(len(front.rated)))
     flown = "".join(
@@ -55,6 +67,7 @@ def design_page(
     return (
         f'{PAGE_BEGINS}<html lang="en"><head><meta charset="utf-8">'
         f"<title>{html_text(title)}</title><style>{STYLE}.pictures{{display:flex;flex-wrap:wrap}}"
+        ".dense td,.dense th{overflow-wrap:normal}"
         f".chosen td{{font-weight:700}}</style></head><body><h1>{html_text(title)}</h1>{remarks}"
         f'<div class="pictures">{pictures}</div>'
         f'<table class="dense"><thead><tr><th>layout</th>{heads}</tr></thead>'
@@ -79,22 +92,24 @@ def name_of(front: Front, k: int) -> str:
 def _row(front: Front, k: int) -> str:
     row = front.rated[k]
     cells = "".join(
-        f"<td>{cell(row, key, factor, decimals)}</td>" for key, _, _, factor, decimals in COLUMNS
+        f"<td>{cell(row, key, factor, decimals)}</td>"
+        for key, _, _, factor, decimals in shown_columns(front)
     )
     chosen = ' class="chosen"' if k == front.chosen else ""
     return f"<tr{chosen}><td>{html_text(name_of(front, k))}</td>{cells}</tr>"
 
 
 def _picture(front: Front, x: str, y: str) -> str:
-    points = [(float(row.to_json()[x]), float(row.to_json()[y])) for row in front.rated]
+    rows, scales = [row.to_json() for row in front.rated], [_scale(key) for key in (x, y)]
+    points = [(scales[0] * float(row[x]), scales[1] * float(row[y])) for row in rows]
     places = [_places([point[axis] for point in points]) for axis in (0, 1)]
     marks = []
     for k, row in enumerate(front.rated):
         at = (_LEFT + _WIDTH * places[0][k], _TOP + _HEIGHT * (1.0 - places[1][k]))
         marks.append(_mark(front, k, row, at))
     labels = [
-        _text(_LEFT + _WIDTH / 2.0, _TOP + _HEIGHT + 36.0, x),
-        _text(4.0, 12.0, y, "start"),
+        _text(_LEFT + _WIDTH / 2.0, _TOP + _HEIGHT + 36.0, _line_of(x)),
+        _text(4.0, 12.0, _line_of(y), "start"),
         *_ends([point[0] for point in points], [point[1] for point in points]),
     ]
     frame = (
@@ -103,6 +118,16 @@ def _picture(front: Front, x: str, y: str) -> str:
     )
     size = f'viewBox="0 0 {_LEFT + _WIDTH + 16:g} {_TOP + _HEIGHT + _BOTTOM:g}" width="560"'
     return f'<svg xmlns="http://www.w3.org/2000/svg" {size}>{frame}{"".join(marks + labels)}</svg>'
+
+
+def _line_of(key: str) -> str:
+    """The words of a figure with its unit; its name where the table does not have it."""
+    heads = {name: f"{head}, {unit}" if unit else head for name, head, unit, _, _ in COLUMNS}
+    return heads.get(key, key)
+
+
+def _scale(key: str) -> float:
+    return {name: factor for name, _, _, factor, _ in COLUMNS}.get(key, 1.0)
 
 
 def _places(values: Sequence[float]) -> list[float]:
