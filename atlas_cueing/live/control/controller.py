@@ -342,7 +342,8 @@ class LiveController:
             return
         self._faults, self._landing = self._faults + 1, False
         self._homecoming.note_fault(late=False)
-        self._requests_before_fault = self._requests
+        # a platform that never left home needs no second request: nobody hangs there
+        self._requests_before_fault = 0 if self._platform.has_not_left else self._requests
         self._failures.append(("fault", reason))
         self._handle(Event.FAULT, reason)
 
@@ -362,7 +363,7 @@ class LiveController:
         if event is Event.RESET:
             self._guard.start(standstill(self._last_motion, self._last.wheel_angle))
         if self.state is State.STOPPED:
-            self._homecoming.note_stop(self._requests)
+            self._homecoming.note_stop(self._requests_before_fault)
         if not self._attended and self.state in _REST_STATES and not self._finishing:
             self._end_unattended()
 

@@ -44,9 +44,10 @@ class Homecoming:
         self._late_only = late
 
     def note_stop(self, requests: int) -> None:
-        """Note that the platform has stopped, and how often the run had been asked to end.
+        """Note that the platform has stopped.
 
-        Two requests have asked for this stop, and are all that is needed.
+        requests: to end, that do not count any more: those before the fault. Two have asked for
+            this stop, and the second is all that is needed.
         """
         self._punctual_since = None
         self._requests = requests - (requests > 1)

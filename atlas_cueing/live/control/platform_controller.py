@@ -110,6 +110,11 @@ class PlatformController:
         return self._cueing is None
 
     @property
+    def has_not_left(self) -> bool:
+        """Whether it is at home, and no cueing has moved it since it was parked."""
+        return self._cueing is None and not self._slowly and _is_parked(self._motion)
+
+    @property
     def motion(self) -> Motion:
         """The last motion."""
         return self._motion
@@ -121,11 +126,8 @@ class PlatformController:
             case State.ENGAGING:
                 return isinstance(self._trajectory, EngageTrajectory) and self._trajectory.arrived
             case State.PARKING:
-                return (
-                    isinstance(self._trajectory, ParkTrajectory)
-                    and self._trajectory_completed
-                    and _is_parked(self._motion)
-                )
+                parking = not isinstance(self._trajectory, GentleStop)
+                return parking and self._trajectory_completed and _is_parked(self._motion)
             case State.FAULT_STOPPING:
                 return _is_still(self._motion)
         return False
@@ -153,10 +155,15 @@ class PlatformController:
         self._trajectory = EngageTrajectory(self._motion, self._cue, self._dt, duration)
 
     def start_next_trajectory(self) -> None:
-        """Start the way back to park as soon as a stop for parking has come to rest."""
+        """Start the way back to park as soon as a stop for parking has come to rest.
+
+        A platform that has not left home stays as it is: there may be no drives to follow it.
+        """
         stopping = isinstance(self._trajectory, GentleStop)
         if self.state is State.PARKING and stopping and self._trajectory_completed:
             self._leave_stop()
+            if self.has_not_left:
+                return
             q, p = self._motion.q_WS, self._motion.p_WS_W
             duration = self._pace.parking_time(turn_home(q), p, self._slowly)
             self._trajectory = ParkTrajectory(self._motion, self._dt, duration)

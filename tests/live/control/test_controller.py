@@ -137,7 +137,7 @@ def test_an_operators_hold_is_ended_by_engaging_only(button: str) -> None:
     """A reset while holding is no wish to go on."""
     rig = rig_in(State.HOLDING)
     rig.press(button)
-    rig.fly(3.0)
+    rig.fly(1.0)
     assert rig.state is (State.PARKING if button == "park" else State.HOLDING)
     if button == "reset":
         rig.press("engage")
