@@ -154,7 +154,10 @@ class DriveMonitor:
             reason = f": {status.reason}" if status.reason else ""
             return "waiting", f"the drives wait for a first set point{reason}"
         if status.followed != self._feedback.session:
-            return "stranger", "the drives follow the set points of another run; reset them"
+            return "stranger", (
+                "the drives follow the set points of another run; wait until that has ended parked,"
+                " or reset them"
+            )
         if status.state == "latched":
             return "latched", f"the drives have latched: {status.reason}; reset them"
         return ("off", self._off) if self._off else ("", "")

@@ -78,7 +78,11 @@ def test_drives_that_do_as_they_are_told_are_no_fault() -> None:
     ("said", "fault"),
     [
         ({"state": "latched", "reason": "late"}, "the drives have latched: late; reset them"),
-        ({"followed": 8}, "the drives follow the set points of another run; reset them"),
+        (
+            {"followed": 8},
+            "the drives follow the set points of another run; wait until that has ended parked, or"
+            " reset them",
+        ),
         ({"state": "waiting", "followed": 0}, "the drives wait for a first set point"),
     ],
 )
