@@ -9,6 +9,7 @@ import pytest
 from live.riding import child
 from waiting import until
 
+from atlas_cueing.telemetry import child_process
 from atlas_cueing.telemetry.child_process import ChildProcess, Left, ProcessExit
 
 PATIENCE = 60.0  # s, for what takes milliseconds on a machine that has time
@@ -48,6 +49,21 @@ def test_a_killed_one_is_dead_before_it_is_reaped() -> None:
     os.kill(process.pid, signal.SIGKILL)
     until(lambda: not process.alive)
     assert process.finish(PATIENCE) == ProcessExit(b"", -signal.SIGKILL)
+
+
+def test_one_that_hangs_lives_and_does_not_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(child_process, "HANGS_S", 0.5)
+    process = ChildProcess(patient)
+    until(lambda: process.answers)
+    os.kill(process.pid, signal.SIGSTOP)
+    until(lambda: not process.answers)
+    assert process.alive
+    os.kill(process.pid, signal.SIGCONT)
+    until(lambda: process.answers)
+    os.kill(process.pid, signal.SIGKILL)
+    until(lambda: not process.alive)
+    assert not process.answers
+    process.finish(PATIENCE)
 
 
 def test_one_that_does_not_end_is_killed() -> None:

@@ -26,6 +26,8 @@ from .platform_controller import PlatformController
 from .slot import Slot
 from .state_machine import BUTTON_EVENTS, Event, State
 
+_LATE = "a tick came {:.1f} ms too late for its slot"
+_LATE_FOR_DRIVES = "a set point came {:.1f} ms too late for the drives"
 _REMEDY = "what helps: --priority, a longer --lead, a lower --rate, fewer programs beside it"
 
 _FAULT_STATES = (State.FAULT_STOPPING, State.STOPPED)
@@ -243,6 +245,8 @@ class LiveController:
             self._handle(event, reason)
         self._tell_remark(time)
         if self._finishing and self.state in _AWAY_FROM_PARK:
+            if self.state is State.ENGAGING and not (self._set_out or self._monitor.good):
+                self._handle(Event.ABSENT, self._absence())
             if self.state is State.WAITING and not self._set_out:
                 self._failures.append(("input_lost", self._absence()))
             self._handle(Event.PARK, "the run is over")
@@ -252,7 +256,10 @@ class LiveController:
     def _check_lateness(self, late: float) -> None:
         """Raise a fault when it is too late for the set point by `late` (s) of this slot."""
         if late > 0.0 and self.state not in _FAULT_STATES:
-            self._fail(f"a set point came {1e3 * late:.1f} ms too late for the drives; {_REMEDY}")
+            what, whom = (
+                ("set point", "the drives") if self._operator.carries else ("tick", "its slot")
+            )
+            self._fail(f"a {what} came {1e3 * late:.1f} ms too late for {whom}; {_REMEDY}")
             self._homecoming.note_fault(late=True)
 
     def _handle_operator(self, time: float) -> None:

@@ -109,6 +109,27 @@ def test_a_ride_without_a_good_sample_is_one_that_lost_its_input(end: str, after
     assert (outcome.result, outcome.reason) == ("input_lost", "no good input: nothing comes")
 
 
+@pytest.mark.parametrize("duration", [0.0, 0.3, 0.99])
+@pytest.mark.parametrize("quiet", [False, True])
+def test_a_short_ride_tells_that_it_waits_if_nothing_came(duration: float, quiet: bool) -> None:
+    rig = Rig(settings=QUICK, attended=False, duration=duration)
+    rig.source.quiet = quiet
+    rig.source.remark = "nothing comes" if quiet else ""
+    rig.controller.engage()
+    rig.until(lambda: rig.controller.over, 3.0)
+    told = [("waiting", "no good input: nothing comes")] if quiet else []
+    assert [change for change in changes_of(rig) if change[0] == "waiting"] == told
+    assert rig.controller.outcome.result == ("input_lost" if quiet else "ok")
+
+
+@pytest.mark.parametrize("carries", [False, True])
+def test_a_late_tick_speaks_of_drives_only_where_there_are_some(carries: bool) -> None:
+    rig = rig_in(State.RUNNING, carries=carries)
+    rig.tick(lateness=0.025)
+    assert ("drives" in changes_of(rig)[-1][1]) == carries
+    assert "ms too late for" in changes_of(rig)[-1][1]
+
+
 def test_nobody_asked_to_engage_and_nothing_came() -> None:
     rig = Rig(settings=QUICK)
     rig.source.quiet = True
