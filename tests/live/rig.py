@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from atlas_cueing.live.control.command import Command
-from atlas_cueing.live.control.controller import LiveController, OperatorInputs
+from atlas_cueing.live.control.controller import LiveController
 from atlas_cueing.live.control.drive_monitor import DriveMonitor
 from atlas_cueing.live.control.drive_status import DriveFeedback
 from atlas_cueing.live.control.guard import Guard
+from atlas_cueing.live.control.operator_inputs import OperatorInputs
 from atlas_cueing.live.control.platform_controller import PlatformController
 from atlas_cueing.live.control.pose import Pose
 from atlas_cueing.live.control.slot import Slot

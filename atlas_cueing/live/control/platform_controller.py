@@ -22,6 +22,7 @@ from ...rotation import (
     subtract,
 )
 from ...signals import Cue, Motion, StageLimits, Tick, VehicleState, WheelLimits, WheelSpeeds
+from .at_rest import is_at_home, is_at_rest, is_still
 from .certified_axis import six_axes
 from .command import Command, command_from
 from .gentle_stop import GentleStop
@@ -40,8 +41,6 @@ from .trajectories import (
     turn_home,
 )
 
-# rad/s, m/s, and a tenth of it per s^2: below this the platform is at rest (assumed: imperceptible)
-AT_REST = 1e-3
 LONGEST_BLEND = 5.0  # s
 
 
@@ -112,7 +111,7 @@ class PlatformController:
     @property
     def has_not_left(self) -> bool:
         """Whether it is at home, and no cueing has moved it since it was parked."""
-        return self._cueing is None and not self._slowly and _is_parked(self._motion)
+        return self._cueing is None and not self._slowly and is_at_home(self._motion)
 
     @property
     def motion(self) -> Motion:
@@ -127,9 +126,9 @@ class PlatformController:
                 return isinstance(self._trajectory, EngageTrajectory) and self._trajectory.arrived
             case State.PARKING:
                 parking = not isinstance(self._trajectory, GentleStop)
-                return parking and self._trajectory_completed and _is_parked(self._motion)
+                return parking and self._trajectory_completed and is_at_home(self._motion)
             case State.FAULT_STOPPING:
-                return _is_still(self._motion)
+                return is_still(self._motion)
         return False
 
     def handle(self, event: Event) -> bool:
@@ -227,7 +226,7 @@ class PlatformController:
 
     @property
     def _trajectory_completed(self) -> bool:
-        return self._trajectory.arrived and _is_at_rest(self._motion)
+        return self._trajectory.arrived and is_at_rest(self._motion)
 
     def _enter_state(self, before: State) -> None:
         """Start the trajectory of a new state."""
@@ -292,16 +291,3 @@ def _motion_at(motion: Motion, time: float) -> Motion:
     if m.time == time:
         return m
     return Motion(time, m.q_WS, m.w_WS_W, m.alpha_WS_W, m.p_WS_W, m.v_WS_W, m.a_WS_W, m.limited)
-
-
-def _is_still(motion: Motion) -> bool:
-    return not any((*motion.w_WS_W, *motion.alpha_WS_W, *motion.v_WS_W, *motion.a_WS_W))
-
-
-def _is_at_rest(motion: Motion) -> bool:
-    rate, bend = hypot(*motion.w_WS_W, *motion.v_WS_W), hypot(*motion.alpha_WS_W, *motion.a_WS_W)
-    return rate < AT_REST and bend < 10.0 * AT_REST
-
-
-def _is_parked(motion: Motion) -> bool:
-    return Pose(motion.q_WS, ZERO, motion.p_WS_W).is_home
