@@ -5,7 +5,7 @@ import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
 
@@ -13,7 +13,8 @@ from ..errors import InputError
 from .batch_files import check_plotly, write_reviews, write_table
 from .batch_progress import batch_progress
 from .batch_summary import end, plan_text, swept_settings, table_json, table_text
-from .text import TRUST_MODELS, say
+from .options import AsJson, TrustModels
+from .text import say
 
 if TYPE_CHECKING:
     from ..batch import Fly
@@ -61,63 +62,70 @@ A file with a [sweep] table stands for many runs:
 SORTED_BY = "direction_rms_rad"
 _SHOWN_NAMES = 5  # metrics that a wrong --sort is answered with
 
+Paths: TypeAlias = Annotated[
+    list[Path],
+    typer.Argument(help="Scenario files, sweeps, and folders of them.", metavar="PATH..."),
+]
+Output: TypeAlias = Annotated[
+    str,
+    typer.Option(
+        "-o",
+        "--output",
+        metavar="FOLDER|URL",
+        help="Where logs, results and table go; URL: file://, s3://...",
+    ),
+]
+Jobs: TypeAlias = Annotated[
+    int | None,
+    typer.Option(min=1, max=1024, help="Runs at a time; by default one for each core."),
+]
+Cluster: TypeAlias = Annotated[
+    str | None,
+    typer.Option(metavar="tcp://HOST:PORT", help="Fly on a dask cluster; 'local' starts one here."),
+]
+AllSettings: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="KEY=VALUE", help="Set any key in all scenarios; repeatable."),
+]
+Sort: TypeAlias = Annotated[
+    str, typer.Option(metavar="METRIC", help="What the table is sorted by.")
+]
+Top: TypeAlias = Annotated[int, typer.Option(min=0, help="Rows of the table that are printed.")]
+TimeLimit: TypeAlias = Annotated[
+    float, typer.Option("--time-limit", min=0.1, help="Wall time for one run, s.")
+]
+MemoryLimit: TypeAlias = Annotated[
+    float, typer.Option("--memory-limit", min=0.5, help="Address space for one run, GB.")
+]
+Retry: TypeAlias = Annotated[
+    bool, typer.Option("--retry", help="Fly again what crashed or went over a limit.")
+]
+Pages: TypeAlias = Annotated[
+    bool,
+    typer.Option(
+        "--pages", help="Write the review of each run for a browser; MBs and seconds each."
+    ),
+]
+DryRun: TypeAlias = Annotated[
+    bool, typer.Option("--dry-run", help="Check everything, show the plan, fly nothing.")
+]
+
 
 def batch_command(
-    paths: Annotated[
-        list[Path],
-        typer.Argument(help="Scenario files, sweeps, and folders of them.", metavar="PATH..."),
-    ],
-    output: Annotated[
-        str,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="FOLDER|URL",
-            help="Where logs, results and table go; URL: file://, s3://...",
-        ),
-    ],
-    jobs: Annotated[
-        int | None,
-        typer.Option(min=1, max=1024, help="Runs at a time; by default one for each core."),
-    ] = None,
-    cluster: Annotated[
-        str | None,
-        typer.Option(
-            metavar="tcp://HOST:PORT", help="Fly on a dask cluster; 'local' starts one here."
-        ),
-    ] = None,
-    settings: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--set", metavar="KEY=VALUE", help="Set any key in all scenarios; repeatable."
-        ),
-    ] = None,
-    sort: Annotated[
-        str, typer.Option(metavar="METRIC", help="What the table is sorted by.")
-    ] = SORTED_BY,
-    top: Annotated[int, typer.Option(min=0, help="Rows of the table that are printed.")] = 20,
-    time_limit: Annotated[
-        float, typer.Option("--time-limit", min=0.1, help="Wall time for one run, s.")
-    ] = 1800.0,
-    memory_limit: Annotated[
-        float, typer.Option("--memory-limit", min=0.5, help="Address space for one run, GB.")
-    ] = 4.0,
-    retry: Annotated[
-        bool, typer.Option("--retry", help="Fly again what crashed or went over a limit.")
-    ] = False,
-    pages: Annotated[
-        bool,
-        typer.Option(
-            "--pages", help="Write the review of each run for a browser; MBs and seconds each."
-        ),
-    ] = False,
-    dry_run: Annotated[
-        bool, typer.Option("--dry-run", help="Check everything, show the plan, fly nothing.")
-    ] = False,
-    trust_models: Annotated[bool, typer.Option("--trust-models", help=TRUST_MODELS)] = False,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print one JSON object and nothing else.")
-    ] = False,
+    paths: Paths,
+    output: Output,
+    jobs: Jobs = None,
+    cluster: Cluster = None,
+    settings: AllSettings = None,
+    sort: Sort = SORTED_BY,
+    top: Top = 20,
+    time_limit: TimeLimit = 1800.0,
+    memory_limit: MemoryLimit = 4.0,
+    retry: Retry = False,
+    pages: Pages = False,
+    dry_run: DryRun = False,
+    trust_models: TrustModels = False,
+    as_json: AsJson = False,
 ) -> None:
     """Fly many scenarios, each alone in its process, and put all figures into one table.
 

@@ -1,8 +1,10 @@
 """`atlas-cueing platform`: the kinematics of a platform, and the loads it can carry."""
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
+
+from .options import AsJson
 
 if TYPE_CHECKING:
     from ..scenario import Platform
@@ -17,23 +19,22 @@ Examples:
   atlas-cueing platform my_platform.toml --json
 """
 
+PresetOrFile: TypeAlias = Annotated[
+    str,
+    typer.Argument(
+        help="A platform of the package, or a platform file (TOML).", metavar="PRESET_OR_FILE"
+    ),
+]
+WithLoads: TypeAlias = Annotated[
+    bool,
+    typer.Option("--loads", help="Show what contacts and drives can carry; the file needs masses."),
+]
+
 
 def platform_command(
-    name_or_file: Annotated[
-        str,
-        typer.Argument(
-            help="A platform of the package, or a platform file (TOML).", metavar="PRESET_OR_FILE"
-        ),
-    ],
-    loads: Annotated[
-        bool,
-        typer.Option(
-            "--loads", help="Show what contacts and drives can carry; the file needs masses."
-        ),
-    ] = False,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print one JSON object and nothing else.")
-    ] = False,
+    name_or_file: PresetOrFile,
+    loads: WithLoads = False,
+    as_json: AsJson = False,
 ) -> None:
     """Show a platform's Jacobians, its conditioning, its limits and how fast the sphere may turn.
 

@@ -46,17 +46,7 @@ def cue_again(
     log = open_log(path)
     bare = SCENARIO not in log.attachments
     recorded = regular_vehicle(log) if bare else recorded_vehicle(log)
-    with unpacked(log) as folder:
-        if bare:
-            (folder / SCENARIO).write_text(scenario_of_flight(log, settings), "utf-8")
-        try:
-            here = [_from_here(text) for text in settings]
-            scenario = _cued_by(folder / SCENARIO, here, trust_models)
-        except ScenarioError as error:
-            raise InputError(
-                *(as_inside(ScenarioError([mistake]), folder) for mistake in error.mistakes)
-            ) from error
-        attachments = scenario.attachments()
+    scenario, attachments = _scenario_for(log, settings, trust_models)
     if not bare:
         _check_method(log, scenario, settings)
     vehicle, pipeline = prepare(scenario, recorded)
@@ -69,20 +59,44 @@ def cue_again(
     )
     try:
         failure = _cue_into(recorder, ticks(vehicle, pipeline))
-        for status in log.statuses:
-            if failure is None or status.time < failure.time:
-                recorder.status(status.time, status.state, status.reason)
-        ended = "ok" if bare else ""  # a flight alone has no end but its own
-        result, reason = log.metadata.get("result", ended), log.metadata.get("reason", "")
-        if failure:
-            result, reason = METHOD_FAILED, str(failure)
-            recorder.status(failure.time, result, reason)
-        recorder.close(result, reason)
+        _end(recorder, log, failure, "ok" if bare else "")  # a flight alone has no end but its own
     except OutputError:
         recorder.abandon()
         recorder.part.unlink(missing_ok=True)  # half of it is of no use: the flight is still there
         raise
     return scenario
+
+
+def _scenario_for(
+    log: Log, settings: Sequence[str], trusted: bool
+) -> tuple[Scenario, dict[str, bytes]]:
+    """The log's scenario, or that of a flight alone, with the settings on top; its attachments."""
+    with unpacked(log) as folder:
+        if SCENARIO not in log.attachments:
+            (folder / SCENARIO).write_text(scenario_of_flight(log, settings), "utf-8")
+        try:
+            here = [_from_here(text) for text in settings]
+            scenario = _cued_by(folder / SCENARIO, here, trusted)
+        except ScenarioError as error:
+            raise InputError(
+                *(as_inside(ScenarioError([mistake]), folder) for mistake in error.mistakes)
+            ) from error
+        return scenario, scenario.attachments()
+
+
+def _end(recorder: McapRecorder, log: Log, failure: MethodError | None, ended: str) -> None:
+    """Finish the new log with the flight's states and result, or with the method's failure.
+
+    ended: the result of a log that names none.
+    """
+    for status in log.statuses:
+        if failure is None or status.time < failure.time:
+            recorder.status(status.time, status.state, status.reason)
+    result, reason = log.metadata.get("result", ended), log.metadata.get("reason", "")
+    if failure:
+        result, reason = METHOD_FAILED, str(failure)
+        recorder.status(failure.time, result, reason)
+    recorder.close(result, reason)
 
 
 def _cue_into(recorder: McapRecorder, blocks: Iterable[list[Tick]]) -> MethodError | None:

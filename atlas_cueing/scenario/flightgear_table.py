@@ -4,7 +4,8 @@ from pathlib import Path
 from typing import Literal
 
 from ..vehicles import FlightgearFlight
-from ..vehicles.flightgear import DEFAULT_HOLD_AFTER, DEFAULT_PORT, DEFAULT_RATE_HZ, LOOPBACK
+from ..vehicles.flightgear import DEFAULT_PORT
+from ..vehicles.sent_flight import DEFAULT_HOLD_AFTER, DEFAULT_RATE_HZ, LOOPBACK
 from .packet_port import PacketPort
 from .source_table import SourceTable
 

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator
 
-from ..vehicles.flightgear import LOOPBACK
+from ..vehicles.sent_flight import LOOPBACK
 from .tables import ScenarioTable, number, refuse, whole
 
 

@@ -9,7 +9,7 @@ from ..signals import Vehicle
 class Flight(Protocol):
     """A flight to come: everything that is known of it before its vehicle is built.
 
-    A new source is a class like this one, a `SourceTable` in `scenario` that makes it from the
+    A new source is a class of this kind, a `SourceTable` in `scenario` that makes it from the
     keys of `[vehicle]`, and a line in `scenario.vehicle_table`.
 
     live_only: why it flies only in real time, and what to do instead; empty when it flies without
@@ -45,14 +45,15 @@ class Flight(Protocol):
     def files(self) -> dict[str, Path]:
         """Return the user's files that make this flight: path in the log's attachments to file.
 
-        They are small, since each log and each run of a batch carries them. Raises InputError for
-        one that cannot be read.
+        None unless a source says otherwise. They are small, since each log and each run of a batch
+        carries them. Raises InputError for one that cannot be read.
         """
-        ...
+        return {}
 
     def large_files(self) -> dict[str, Path]:
         """Return files that are too large to carry along, such as a recording: name to file.
 
-        A run is told from another by their content; it is read where it lies.
+        None unless a source says otherwise. A run is told from another by their content; it is
+        read where it lies.
         """
-        ...
+        return {}

@@ -19,24 +19,19 @@ force to 4e-6 m/s^2.
 
 from dataclasses import dataclass
 from math import cos, inf, pi, sin, sqrt
-from pathlib import Path
 from struct import Struct
 from typing import ClassVar
 
-from ..errors import InputError
 from ..rotation import Vec3, from_euler
-from ..signals import STANDARD_GRAVITY, Vehicle, VehicleState
+from ..signals import STANDARD_GRAVITY, VehicleState
 from .bounds import Bounds, PacketError
 from .jsbsim.readings import METRES_PER_FOOT
+from .sent_flight import SentFlight
 
 VERSION = 24
 PACKET_BYTES = 408
 
-LOOPBACK = "127.0.0.1"
 DEFAULT_PORT = 5501  # of FlightGear's own examples
-DEFAULT_RATE_HZ = 120.0  # JSBSim's own step in FlightGear
-# s without a packet that are borne: FlightGear on a busy machine leaves up to 0.28 s (measured)
-DEFAULT_HOLD_AFTER = 0.3
 
 _VERSION = Struct(">I")
 _HIGHEST_VERSION = 1000  # that FlightGear may come to; beyond it is no version at all (assumed)
@@ -57,45 +52,17 @@ _SPIN = 0.00344978650684  # m = w^2 a^2 b / GM
 
 
 @dataclass(frozen=True, slots=True)
-class FlightgearFlight:
-    """A vehicle that FlightGear or JSBSim flies elsewhere and sends here (implements Flight).
-
-    host, port: local address and UDP port that packets come to.
-    rate_hz: nominal packets per second; what the sender really sends is measured.
-    hold_after: time without a good packet from which on the platform holds, s.
-    """
+class FlightgearFlight(SentFlight):
+    """A vehicle that FlightGear or JSBSim flies elsewhere and sends here."""
 
     live_only: ClassVar[str] = "source = 'flightgear' flies only live: atlas-cueing live FILE"
-    ends_itself: ClassVar[bool] = False
 
-    host: str = LOOPBACK
     port: int = DEFAULT_PORT
-    rate_hz: float = DEFAULT_RATE_HZ
-    hold_after: float = DEFAULT_HOLD_AFTER
 
     @property
     def name(self) -> str:
         """Return the word for all of them."""
         return "flightgear"
-
-    def vehicle(self) -> Vehicle:
-        """Raise InputError: the simulator owns its time, so it cannot be stepped."""
-        raise InputError(self.live_only)
-
-    def length(self) -> None:
-        """Return nothing: the simulator may send for ever."""
-
-    def step(self) -> float:
-        """Return the nominal time between two packets, s."""
-        return 1.0 / self.rate_hz
-
-    def files(self) -> dict[str, Path]:
-        """Return nothing: what is flown is known elsewhere."""
-        return {}
-
-    def large_files(self) -> dict[str, Path]:
-        """Return nothing: what is flown is known elsewhere."""
-        return {}
 
 
 def decode(packet: bytes, time: float, bounds: Bounds) -> VehicleState:

@@ -42,18 +42,16 @@ from pathlib import Path
 from struct import Struct
 from typing import ClassVar
 
-from ..errors import InputError
 from ..rotation import ZERO, Vec3, from_euler
-from ..signals import Vehicle, VehicleState
+from ..signals import VehicleState
 from .bounds import Bounds, PacketError
+from .sent_flight import SentFlight
 
 MAGIC, VERSION = b"ATVP", 1
 CRC32, HMAC_SHA256 = 0, 1
 QUATERNION, EULER = 0, 1
 SHORTEST_KEY, LONGEST_KEY = 16, 64  # bytes; longer ones HMAC would hash first
 DEFAULT_PORT = 5502
-DEFAULT_RATE_HZ = 120.0
-DEFAULT_HOLD_AFTER = 0.3  # s
 SILENCE = 0.3  # s of a session after which another one may begin (assumed)
 
 _content = Struct("<4sBBBxQQd4d3d3d")
@@ -65,43 +63,21 @@ _MOST_SESSIONS = 1000  # that are remembered as over
 
 
 @dataclass(frozen=True, slots=True)
-class PacketFlight:
-    """A vehicle that any simulator flies elsewhere and sends here (implements Flight).
+class PacketFlight(SentFlight):
+    """A vehicle that any simulator flies elsewhere and sends here.
 
-    host, port: local address and UDP port that packets come to.
-    rate_hz: nominal packets per second; what the sender really sends is measured.
-    hold_after: time without a good packet from which on the platform holds, s.
-    key_file: file with the shared key; None for packets without.
+    key_file: file with the shared key; None for packets without. It does not go into the log.
     """
 
     live_only: ClassVar[str] = "source = 'packets' flies only live: atlas-cueing live FILE"
-    ends_itself: ClassVar[bool] = False
 
-    host: str = "127.0.0.1"
     port: int = DEFAULT_PORT
-    rate_hz: float = DEFAULT_RATE_HZ
-    hold_after: float = DEFAULT_HOLD_AFTER
     key_file: Path | None = None
 
     @property
     def name(self) -> str:
         """Return the word for all of them."""
         return "packets"
-
-    def vehicle(self) -> Vehicle:
-        """Raise InputError: the simulator owns its time, so it cannot be stepped."""
-        raise InputError(self.live_only)
-
-    def length(self) -> None:
-        """Return nothing: the simulator may send for ever."""
-
-    def step(self) -> float:
-        """Return the nominal time between two packets, s."""
-        return 1.0 / self.rate_hz
-
-    def files(self) -> dict[str, Path]:
-        """Return nothing: a key must not go into a log."""
-        return {}
 
     def large_files(self) -> dict[str, Path]:
         """Return the key's file: it is read where it lies, and no output replaces it."""

@@ -10,7 +10,6 @@ and the rates are exact (`euler_top`).
 
 from dataclasses import dataclass
 from math import inf
-from pathlib import Path
 from typing import ClassVar
 
 from ..errors import InputError, VehicleError
@@ -18,12 +17,13 @@ from ..rotation import IDENTITY, ZERO, Quat, Vec3, add, cross, scale, up_in_body
 from ..signals import STANDARD_GRAVITY, VehicleState
 from .bounds import Bounds
 from .euler_top import EulerTop, rate_of_change
+from .flight import Flight
 from .jsbsim.flights import DEFAULT_RATE_HZ
 
 
 @dataclass(frozen=True, slots=True)
-class RigidBodyFlight:
-    """A tumble to fly (implements Flight).
+class RigidBodyFlight(Flight):
+    """A tumble to fly.
 
     inertia: principal moments, kg m^2, about the forward, right and down axes.
     w_B: body rates at the start, rad/s. q_NB: attitude at the start.
@@ -58,14 +58,6 @@ class RigidBodyFlight:
     def step(self) -> float:
         """Return the time between two states, s."""
         return 1.0 / self.rate_hz
-
-    def files(self) -> dict[str, Path]:
-        """Return nothing: the scenario holds the body."""
-        return {}
-
-    def large_files(self) -> dict[str, Path]:
-        """Return nothing: the scenario holds the body."""
-        return {}
 
     def objection(self) -> str:
         """Say why there is no such body; empty when there is."""

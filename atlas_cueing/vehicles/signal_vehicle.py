@@ -23,7 +23,6 @@ former is our reading, not a quotation.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import pi
-from pathlib import Path
 from typing import ClassVar, TypeAlias
 
 from ..errors import InputError, VehicleError
@@ -41,6 +40,7 @@ from ..rotation import (
 )
 from ..signals import STANDARD_GRAVITY, Vehicle, VehicleState
 from .bounds import Bounds
+from .flight import Flight
 from .jsbsim.flights import DEFAULT_RATE_HZ, MAX_RATE_HZ, MIN_RATE_HZ
 from .signal_shapes import FORCE_AXES, RATE_AXES, Signal, SignalAxis
 
@@ -51,8 +51,8 @@ _SUBSTEPS = 4
 
 
 @dataclass(frozen=True, slots=True)
-class SignalFlight:
-    """Signals to fly at `rate_hz` steps per second; None for the default (implements Flight).
+class SignalFlight(Flight):
+    """Signals to fly at `rate_hz` steps per second; None for the default.
 
     Without `force_follows_attitude` the force is held.
     """
@@ -80,14 +80,6 @@ class SignalFlight:
     def step(self) -> float:
         """Return the time between two states, s."""
         return 1.0 / (self.rate_hz or DEFAULT_RATE_HZ)
-
-    def files(self) -> dict[str, Path]:
-        """Return nothing: the scenario holds the signals."""
-        return {}
-
-    def large_files(self) -> dict[str, Path]:
-        """Return nothing: the scenario holds the signals."""
-        return {}
 
 
 class SignalVehicle:

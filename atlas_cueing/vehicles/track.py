@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
-from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
@@ -12,6 +11,7 @@ from ..rotation import Vec3
 from ..rotations import length
 from ..signals import VehicleState
 from .bounds import Bounds
+from .flight import Flight
 from .jsbsim.flights import DEFAULT_RATE_HZ
 from .track_car import PER_POINT, Car
 
@@ -25,8 +25,8 @@ _APART = 1e-3  # m; points nearer than this are one
 
 
 @dataclass(frozen=True, slots=True)
-class TrackFlight:
-    """A track to ride (implements Flight).
+class TrackFlight(Flight):
+    """A track to ride.
 
     points: m, x forward, y left, z up. bank: of each, rad, right side down; None for the one that
         leaves no side force.
@@ -59,14 +59,6 @@ class TrackFlight:
     def step(self) -> float:
         """Return the time between two states, s."""
         return 1.0 / self.rate_hz
-
-    def files(self) -> dict[str, Path]:
-        """Return nothing: the scenario holds the points."""
-        return {}
-
-    def large_files(self) -> dict[str, Path]:
-        """Return nothing: the scenario holds the points."""
-        return {}
 
     def objection(self) -> str:
         """Say why nobody can ride it; empty when one can."""

@@ -11,7 +11,8 @@ from atlas_cueing.live.input.udp import Address, Datagram
 from atlas_cueing.live.open_source import flightgear_stream
 from atlas_cueing.rotation import to_euler
 from atlas_cueing.signals import VehicleState
-from atlas_cueing.vehicles.flightgear import DEFAULT_HOLD_AFTER, METRES_PER_FOOT, normal_gravity
+from atlas_cueing.vehicles.flightgear import METRES_PER_FOOT, normal_gravity
+from atlas_cueing.vehicles.sent_flight import DEFAULT_HOLD_AFTER
 
 from .motions import Motion
 

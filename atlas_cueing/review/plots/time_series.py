@@ -40,60 +40,50 @@ def over_time(found: Review) -> Any:
 
     All rows share its zoom, and findings and states are marked across them.
     """
-    run = found.run
-    flight = run.flight
+    titles = _titles()
+    figure = time_rows(titles)
+    _add_felt(figure, found.run)
+    _add_actuators(figure, found.run)
+    _shade(figure, found.run)
+    _mark(figure, found.findings)
+    return styled(figure, height=ROW * len(titles), rows=True)
+
+
+def _titles() -> list[str]:
+    """Titles of the rows, with the colours of wheels and axes in them."""
     wheels = ", ".join(coloured(name, AXES[k]) for k, name in enumerate(_WHEELS))
-    titles = [
+    axes = ", ".join(coloured(a, c) for a, c in zip("xyz", AXES, strict=True))
+    return [
         *(f"specific force {axis}, m/s²" for axis in _FORCES),
         *(f"angular rate {axis}, °/s" for axis in _RATES),
         "angle between the specific forces of vehicle and rider, °",
         f"wheel speed, rad/s: {wheels}",
         f"wheel acceleration, rad/s²: {wheels}",
-        "stage position, m (platform base): "
-        + ", ".join(coloured(a, c) for a, c in zip("xyz", AXES, strict=True)),
+        f"stage position, m (platform base): {axes}",
         "limited: smoothing could not give what was asked",
     ]
-    figure = time_rows(titles)
+
+
+def _add_felt(figure: Any, run: RecordedRun) -> None:
+    """Add rows 1 to 7: forces, rates and the angle between the forces, of vehicle and rider."""
+    flight = run.flight
+    rates = DEGREES * flight.vehicle_w_B, DEGREES * flight.felt_w
     for k in range(3):
         _pair(figure, k + 1, flight.time, flight.vehicle_f_B[:, k], flight.felt_f[:, k])
-        _pair(
-            figure,
-            k + 4,
-            flight.time,
-            DEGREES * flight.vehicle_w_B[:, k],
-            DEGREES * flight.felt_w[:, k],
-        )
+        _pair(figure, k + 4, flight.time, *(rate[:, k] for rate in rates))
     angle = DEGREES * run.log.column("/felt", "direction_error_rad")[: len(flight.time), None]
     _lines(figure, 7, flight.time, angle, {"angle": FELT})
+
+
+def _add_actuators(figure: Any, run: RecordedRun) -> None:
+    """Add rows 8 to 11: wheels and stage within their limits, and where they were limited."""
+    flight = run.flight
     speeds, stage = run.platform.wheel_limit_values(), run.platform.stage_limit_values()
-    _lines(
-        figure,
-        8,
-        flight.time,
-        flight.wheel_speed,
-        dict(zip(_WHEELS, AXES, strict=True)),
-        speeds.speed,
-    )
-    _lines(
-        figure,
-        9,
-        flight.time,
-        flight.wheel_acceleration,
-        dict(zip(_WHEELS, AXES, strict=True)),
-        speeds.acceleration,
-    )
-    _lines(
-        figure,
-        10,
-        flight.time,
-        flight.motion_p_W,
-        dict(zip("xyz", AXES, strict=True)),
-        stage.travel,
-    )
+    wheels, axes = (dict(zip(names, AXES, strict=True)) for names in (_WHEELS, "xyz"))
+    _lines(figure, 8, flight.time, flight.wheel_speed, wheels, speeds.speed)
+    _lines(figure, 9, flight.time, flight.wheel_acceleration, wheels, speeds.acceleration)
+    _lines(figure, 10, flight.time, flight.motion_p_W, axes, stage.travel)
     _flags(figure, 11, flight.time, flight.limited, ("wheels", "stage"))
-    _shade(figure, run)
-    _mark(figure, found.findings)
-    return styled(figure, height=ROW * len(titles), rows=True)
 
 
 def _pair(figure: Any, row: int, time: Array, vehicle: Array, felt: Array) -> None:

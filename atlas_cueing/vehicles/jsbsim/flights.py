@@ -7,6 +7,7 @@ from typing import ClassVar
 
 from ...printable import utf8
 from ...signals import Vehicle
+from ..flight import Flight
 from .library import own_scripts
 from .script_run import script_run
 from .user_models import beside, plain_name, read_users, user_files, user_model
@@ -18,7 +19,7 @@ MAX_RATE_HZ = 10_000.0
 
 
 @dataclass(frozen=True, slots=True)
-class ScriptFlight:
+class ScriptFlight(Flight):
     """A flight as a JSBSim script describes it (implements Flight).
 
     script: an XML file of root `runscript`, JSBSim's own or a user's. It names one of JSBSim's own
@@ -75,10 +76,6 @@ class ScriptFlight:
             files |= user_files(aircraft, self.models, "" if path else initialize)
         return files
 
-    def large_files(self) -> dict[str, Path]:
-        """Return nothing: all files are small."""
-        return {}
-
 
 @dataclass(frozen=True, slots=True)
 class InitialConditions:
@@ -126,7 +123,7 @@ class TimedInput:
 
 
 @dataclass(frozen=True, slots=True)
-class AircraftFlight:
+class AircraftFlight(Flight):
     """An aircraft flown by timed inputs (implements Flight).
 
     rate_hz: steps per second; None for DEFAULT_RATE_HZ.
@@ -167,10 +164,6 @@ class AircraftFlight:
         Raises InputError for too many files, and for one that cannot be read.
         """
         return user_files(self.aircraft, self.models) if self.models else {}
-
-    def large_files(self) -> dict[str, Path]:
-        """Return nothing: all files are small."""
-        return {}
 
 
 def _named(key: bytes, content: bytes) -> str:

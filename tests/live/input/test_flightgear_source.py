@@ -10,7 +10,7 @@ from vehicles.packets import packet
 from atlas_cueing.live.control.sign_continuity import SignContinuity
 from atlas_cueing.rotation import IDENTITY, geodesic
 from atlas_cueing.signals import VehicleState
-from atlas_cueing.vehicles.flightgear import DEFAULT_HOLD_AFTER
+from atlas_cueing.vehicles.sent_flight import DEFAULT_HOLD_AFTER
 
 from ..flightgear_rides import RATE, Simulator, clean, every, packet_of, states
 from ..motions import angles, forces, rates, rms
