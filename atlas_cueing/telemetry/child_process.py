@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 from mmap import mmap
-from struct import Struct
 from time import monotonic
 from typing import NoReturn, TypeAlias
 
@@ -16,7 +15,6 @@ Left: TypeAlias = Callable[[], bool]
 """Returns whether the parent has ended or waits in `finish`: nothing more will come from it."""
 
 HANGS_S = 5.0  # s without a call of Left after which a process counts as hanging (assumed)
-_beat = Struct("=d")
 _FAILED = 70  # exit status after an exception: EX_SOFTWARE of sysexits.h
 # a terminal sends them to all its processes; the loop decides what they mean
 _IGNORED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -49,8 +47,9 @@ class ChildProcess:
         returned True.
         """
         self._channel, theirs = socket.socketpair()
-        self._beat = mmap(-1, _beat.size)  # when it last called Left, s; shared
-        _beat.pack_into(self._beat, 0, monotonic())
+        # when it last called Left, s; shared, and written at once: `struct` would write it by bytes
+        self._beat = memoryview(mmap(-1, 8)).cast("d")
+        self._beat[0] = monotonic()
         self._ended: ProcessExit | None = None
         parent = os.getpid()
         mask = signal.pthread_sigmask(signal.SIG_BLOCK, _IGNORED)
@@ -72,8 +71,7 @@ class ChildProcess:
     @property
     def answers(self) -> bool:
         """Whether it runs, and has called Left in the last HANGS_S; does not wait."""
-        (beat,) = _beat.unpack_from(self._beat)
-        return monotonic() - beat < HANGS_S and self.alive
+        return monotonic() - self._beat[0] < HANGS_S and self.alive
 
     def finish(self, timeout: float) -> ProcessExit:
         """Wait for its end, at most `timeout` s; then it is killed.
@@ -109,7 +107,7 @@ def _run(
     channel: socket.socket,
     parent: int,
     mask: Iterable[int],
-    beat: mmap,
+    beat: "memoryview[float]",
 ) -> NoReturn:
     """Run the function in the forked process, and end it without the parent's own clean-up."""
     status = _FAILED
@@ -128,12 +126,12 @@ def _run(
         os._exit(status)
 
 
-def _left(channel: socket.socket, parent: int, beat: mmap) -> bool:
+def _left(channel: socket.socket, parent: int, beat: "memoryview[float]") -> bool:
     """Return whether the parent has left, see Left; it learns that this process does not hang.
 
     The parent's process id is looked at, too: a sibling may hold a copy of its end of the channel.
     """
-    _beat.pack_into(beat, 0, monotonic())
+    beat[0] = monotonic()
     if os.getppid() != parent:
         return True
     try:

@@ -294,7 +294,7 @@ class Rig:
             self.press("hold" if state is State.HOLDING else "park")
             self.tick()
         if state is State.PARKING:
-            self.fly(1.6)
+            self.fly(1.2)
         if state in (State.FAULT_STOPPING, State.STOPPED):
             self.tick(lateness=0.025)
         if state is State.STOPPED:

@@ -51,6 +51,20 @@ def test_a_killed_one_is_dead_before_it_is_reaped() -> None:
     assert process.finish(PATIENCE) == ProcessExit(b"", -signal.SIGKILL)
 
 
+def busy(left: Left) -> bytes:
+    """Ask all the time."""
+    while not left():
+        pass
+    return b""
+
+
+def test_one_that_is_looked_at_while_it_answers_never_seems_to_hang() -> None:
+    process = ChildProcess(busy)
+    sleep(0.2)
+    assert all(process.answers for _ in range(300_000))
+    process.finish(PATIENCE)
+
+
 def test_one_that_hangs_lives_and_does_not_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(child_process, "HANGS_S", 0.5)
     process = ChildProcess(patient)
