@@ -1,5 +1,7 @@
 """What is requested of a live run from outside."""
 
+# mypyc: runs every tick
+
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
