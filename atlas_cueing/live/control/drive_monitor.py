@@ -7,7 +7,7 @@ that says otherwise, or no word, is a fault; at rest it is a reason not to set o
 # mypyc: runs every tick
 
 from collections import deque
-from math import degrees, inf, radians
+from math import degrees, inf, isfinite, radians
 
 from ...rotation import Vec3
 from .command import Command
@@ -223,4 +223,6 @@ def _cubic(h: float, u: float, p0: Vec3, v0: Vec3, p1: Vec3, v1: Vec3) -> Vec3:
 
 
 def _largest(one: Vec3, other: Vec3) -> float:
-    return max(abs(a - b) for a, b in zip(one, other, strict=True))
+    """Return the largest difference of two vectors; infinite where there is none."""
+    x, y, z = (abs(a - b) for a, b in zip(one, other, strict=True))
+    return max(x, y, z) if isfinite(x + y + z) else inf
