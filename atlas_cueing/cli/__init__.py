@@ -9,9 +9,11 @@ import errno
 import gc
 import logging
 import os
+import signal
 import sys
 import traceback
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated
 
@@ -24,6 +26,8 @@ from .batch import batch_command
 from .catalogue import KEYS_EPILOG, LIST_EPILOG, NEW_EPILOG, keys_command, list_command, new_command
 from .compare import EPILOG as COMPARE_EPILOG
 from .compare import compare_command
+from .design import EPILOG as DESIGN_EPILOG
+from .design import design_command
 from .import_file import EPILOG as IMPORT_EPILOG
 from .import_file import import_command
 from .live import EPILOG as LIVE_EPILOG
@@ -69,6 +73,7 @@ app.command("recue", epilog=RECUE_EPILOG)(recue_command)
 app.command("recover", epilog=RECOVER_EPILOG)(recover_command)
 app.command("import", epilog=IMPORT_EPILOG)(import_command)
 app.command("platform", epilog=PLATFORM_EPILOG)(platform_command)
+app.command("design", epilog=DESIGN_EPILOG)(design_command)
 app.command("new", epilog=NEW_EPILOG)(new_command)
 app.command("keys", epilog=KEYS_EPILOG)(keys_command)
 app.command("list", epilog=LIST_EPILOG)(list_command)
@@ -120,10 +125,22 @@ def _options(
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command with `arguments` (by default the process's own); return the exit status."""
+    """Run the command with `arguments` (by default the process's own); return the exit status.
+
+    Signals that come after the process's own command has ended do not change its status.
+    """
     _speed_up_start()
     with safe_streams():
-        return _status(list(sys.argv[1:] if arguments is None else arguments))
+        status = _status(list(sys.argv[1:] if arguments is None else arguments))
+        if arguments is None:
+            _ignore_signals()
+        return status
+
+
+def _ignore_signals() -> None:
+    with suppress(ValueError):  # not the main thread: signals are not ours
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, signal.SIG_IGN)
 
 
 def _status(texts: list[str]) -> int:
