@@ -232,6 +232,9 @@ class Platform(ScenarioTable):
         sphere = info.data.get("sphere")
         if sphere and any(norm(part.com_m) > sphere.radius_m for part in parts or ()):
             raise refuse(f"every com_m within the sphere, |com_m| <= {sphere.radius_m:g}")
+        names = [part.name for part in parts or () if part.name is not None]
+        if twice := sorted({name for name in names if names.count(name) > 1}):
+            raise object_to(f"two parts are called {twice[0]!r}, allowed: a name of its own each")
         missing = missing_keys(info.data.get("wheel", ()), info.data.get("support"))
         if parts and missing:
             raise object_to(f"with [[part]] there have to be {', '.join(missing)} too")

@@ -80,6 +80,9 @@ def test_a_new_scenario_flies_with_every_comment_taken_out(command: Command) -> 
     again = command("new", "mine")
     assert (again.status, Path("mine.toml").read_text()) == (2, text)
     assert command("new", "../mine").status == 2
+    assert command("new", "yours.toml").status == 0
+    assert {path.name for path in Path().glob("yours*")} == {"yours.toml"}
+    assert 'name = "yours"' in Path("yours.toml").read_text()
 
 
 def test_lists(command: Command) -> None:
@@ -88,3 +91,7 @@ def test_lists(command: Command) -> None:
     assert "fcs/aileron-cmd-norm (RW)" in command("list", "properties", "f16").out.splitlines()
     assert command("list", "properties", "nothing").status == 2
     assert command("list", "engines").status == 2
+    assert "of which aircraft? as: atlas-cueing list properties f16" in (
+        command("list", "properties").err
+    )
+    assert "allowed: list aircraft, without 'f16'" in command("list", "aircraft", "f16").err
