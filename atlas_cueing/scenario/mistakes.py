@@ -130,6 +130,8 @@ def allowed(detail: ErrorDetails, table: type[ScenarioTable]) -> str:
         return "missing"
     if kind == "union_tag_invalid":
         return nearest(str(context["tag"]), _methods(context["expected_tags"]))
+    if kind == "literal_error":
+        return f"allowed: {context['expected']}"
     if kind in _KINDS:
         return f"allowed: {_KINDS[kind]}"
     if kind == "allowed":
