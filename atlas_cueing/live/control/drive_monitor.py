@@ -31,7 +31,7 @@ class DriveMonitor:
     """
 
     def __init__(self, feedback: DriveFeedback, limits: bytes, timeout: float = TIMEOUT) -> None:
-        """Set up.
+        """Begin with no status heard.
 
         Args:
             feedback: where statuses come from.

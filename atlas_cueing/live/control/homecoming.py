@@ -20,7 +20,7 @@ class Homecoming:
     """
 
     def __init__(self, applies: bool, stopped: bool) -> None:
-        """Set up.
+        """Begin with no way home known to be needed.
 
         Args:
             applies: there are drives, and nobody attends the run.

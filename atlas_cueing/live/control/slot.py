@@ -19,7 +19,7 @@ class Slot:
     """
 
     def __init__(self, now: Callable[[], float], time: float, needed: float, due: int = 0) -> None:
-        """Set up.
+        """Begin with its set point not yet sent.
 
         Args:
             now: returns the time of the loop's clock, s.
