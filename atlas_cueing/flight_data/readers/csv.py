@@ -108,7 +108,7 @@ def _numbers(
     path: Path, written: _Written, names: list[str], progress: Progress
 ) -> tuple[NDArray[Any], Array]:
     """Read these columns: line of each row (n,), and numbers (n, names)."""
-    places = [written.header.index(name) for name in names]
+    places = [(name, written.header.index(name)) for name in names]
     rows, numbers = array("q"), array("d")
     for line, text in _lines(path, progress):
         if line <= written.header_line or not text.strip() or text.lstrip().startswith("#"):
@@ -117,7 +117,7 @@ def _numbers(
         if len(cells) > len(written.header):
             _check_rest(path, line, cells, written)
         rows.append(line)
-        numbers.extend(_row(path, line, cells, list(zip(names, places, strict=True)), written))
+        numbers.extend(_row(path, line, cells, places, written))
         if len(rows) > _MOST_ROWS:
             raise InputError(f"{path}: line {line}: more samples than allowed: {_MOST_ROWS}")
     return np.array(rows), np.array(numbers).reshape(-1, len(names))
