@@ -38,3 +38,13 @@ Figure: TypeAlias = Annotated[
     Path | None,
     typer.Option("--figure", metavar="FILE", help="Draw a figure for a paper: .svg or .pdf."),
 ]
+Port: TypeAlias = Annotated[
+    int,
+    typer.Option(
+        "--port",
+        help="Port of --view on this machine; 0 for any free one.",
+        metavar="PORT",
+        min=0,
+        max=65535,
+    ),
+]

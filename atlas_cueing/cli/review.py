@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 import typer
 
 from ..errors import InputError, LogError
-from .options import AsJson, Figure
+from .options import AsJson, Figure, Port
 from .text import FIGURES
 
 if TYPE_CHECKING:
@@ -48,9 +48,6 @@ Replay: TypeAlias = Annotated[
 View: TypeAlias = Annotated[
     bool,
     typer.Option("--view", help="Show the flight in a browser until Ctrl-C, with a play bar."),
-]
-Port: TypeAlias = Annotated[
-    int, typer.Option("--port", min=0, max=65535, help="Port of --view on this machine; 0: any.")
 ]
 
 
