@@ -39,8 +39,7 @@ def open_recorder(
         OutputError: the log cannot be written there.
     """
     recording, platform = scenario.file.recording, scenario.platform
-    flight = scenario.flight if started_ns is None else scenario.live_flight
-    origin = flight.told() if flown is None else flown
+    origin = _told(scenario, live=started_ns is not None) if flown is None else flown
     return McapRecorder(
         log,
         head_S=platform.head_S,
@@ -53,6 +52,11 @@ def open_recorder(
         started_ns=started_ns,
         loads=load_columns(platform.load_model()) if platform.has_loads else None,
     )
+
+
+def _told(scenario: Scenario, live: bool) -> Mapping[str, str]:
+    """Return what is known of where the flight is from, which asks for its files."""
+    return (scenario.live_flight if live else scenario.flight).told()
 
 
 def _metadata(scenario: Scenario, flies: bool) -> dict[str, str]:
