@@ -50,6 +50,7 @@ def build_pipeline(
             sphere_from_wheels=wheels.sphere_from_wheels,
             wheel_limits=platform.wheel_limit_values(),
             stage_limits=platform.stage_limit_values(),
+            contacts=platform.kept_rows(),
         )
         cueing = _cueing(scenario, dt, states)
     except ValueError as error:

@@ -150,10 +150,11 @@ class SupportTable(ScenarioTable):
 
 
 class TractionTable(ScenarioTable):
-    """`[traction]`: reserve of friction to keep, and whether slip and lift-off are findings."""
+    """`[traction]`: reserve of friction, whether motions keep it, whether slip is a finding."""
 
     margin: Annotated[float, number(1.0, 100.0)] = 1.25
     report: Literal["remark", "finding"] = "remark"
+    keep: bool | None = None
 
 
 def missing_keys(wheels: Sequence[Any], supports: Any) -> list[str]:

@@ -10,7 +10,7 @@ from unicodedata import category, normalize
 from pydantic import BeforeValidator, ValidationInfo, field_validator, model_validator
 
 from ..errors import InputError
-from ..loads import UNLIMITED, LoadModel, WheelContact, body_of
+from ..loads import UNLIMITED, KeptRows, LoadModel, WheelContact, body_of
 from ..rotation import ZERO, Vec3, add, norm
 from ..signals import StageLimits, WheelLimits
 from ..wheels import Geometry, OmniWheel, RollerRows
@@ -251,6 +251,12 @@ class Platform(ScenarioTable):
         """Whether loads are known: the platform has masses, and its wheels can turn it."""
         return self.part is not None and self.geometry().slip_free
 
+    def kept_rows(self) -> KeptRows | None:
+        """What motions have to keep, where `[traction] keep = true`. Raises InputError."""
+        if self.traction is None or not self.traction.keep:
+            return None
+        return self.load_model().kept_rows()
+
     def load_model(self) -> LoadModel:
         """What the loads depend on.
 
@@ -273,6 +279,7 @@ class Platform(ScenarioTable):
             drive=self.drive.drive() if self.drive else UNLIMITED,
             traction_margin=traction.margin,
             traction_finding=traction.report == "finding",
+            traction_kept=traction.keep is True,
         )
         model.check()
         return model
