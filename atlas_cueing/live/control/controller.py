@@ -202,7 +202,7 @@ class LiveController:
         """Return the tick with its command, if the guard lets it pass, or the next of its stop."""
         angle = self._platform.wheel_angle if self._waiting is None else self._last.wheel_angle
         if tick is not None and self.state not in _FAULT_STATES:
-            command = self._guard.check(command_of(tick, angle))
+            command = self._guard.check(command_of(tick, angle), tick.motion.q_WS)
         else:
             tick, command = None, self._guard.stop(time)
         if tick is None or self._guard.stopping:

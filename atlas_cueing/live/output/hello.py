@@ -81,4 +81,7 @@ def limits_hash(wheels: WheelLimits, stage: StageLimits) -> bytes:
         *(*wheels.speed, *wheels.acceleration, *wheels.jerk),
         *(*stage.travel, *stage.speed, *stage.acceleration, *stage.jerk),
     )
-    return blake2s(pack("<21d", *numbers), digest_size=HASH_SIZE).digest()
+    soft = (wheels.stop_share, stage.stop_share)
+    if soft != (1.0, 1.0):  # drives with another stop are not these
+        numbers = (*numbers, *soft)
+    return blake2s(pack(f"<{len(numbers)}d", *numbers), digest_size=HASH_SIZE).digest()
