@@ -82,6 +82,7 @@ def limits_hash(wheels: WheelLimits, stage: StageLimits) -> bytes:
         *(*stage.travel, *stage.speed, *stage.acceleration, *stage.jerk),
     )
     soft = (wheels.stop_share, stage.stop_share)
+    packed = pack("<21d", *numbers)
     if soft != (1.0, 1.0):  # drives with another stop are not these
-        numbers = (*numbers, *soft)
-    return blake2s(pack(f"<{len(numbers)}d", *numbers), digest_size=HASH_SIZE).digest()
+        packed += pack("<2d", *soft)
+    return blake2s(packed, digest_size=HASH_SIZE).digest()
