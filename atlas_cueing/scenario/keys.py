@@ -27,6 +27,7 @@ _NOTHING = object()  # no value of a file
 _LONGEST = 200  # characters of what is allowed; names of aircraft are listed by the command `list`
 _OTHER_UNITS = {  # of platforms, beside those of `parameter.UNITS`; the longer ends first
     "stiffness_n_m": "N/m",
+    "_per_m": "1/m",
     "_kg_m2": "kg m^2",
     "_n_m_s": "N m s",
     "_rad_s3": "rad/s^3",
