@@ -4,7 +4,7 @@ import json
 import subprocess
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -20,6 +20,7 @@ sys.path.insert(0, str(TOOL.parent))  # where its modules lie
 
 from benchmarks import (  # noqa: E402
     batches,
+    kept,
     memory,
     recorder,
     report,
@@ -214,6 +215,52 @@ def test_the_table_and_the_json_say_the_same() -> None:
         "as noted",
     ]
     assert "25% of the processors taken away" in lines[-1]
+
+
+def row(ratio: float, *, at_least: bool = False, samples: Sequence[float] = ()) -> Row:
+    """A row of this ratio, whose reference is 10."""
+    asked = Asked(1.0, of_ratio=True, at_least=at_least)
+    return Row("run", "it", 10.0 * ratio, "us", samples, "bare", 10.0, asked)
+
+
+@pytest.mark.parametrize(
+    ("now", "says"),
+    [
+        (row(2.05), []),
+        (row(2.5), ["WORSE: run: it: 2.50 times bare, 2.00 at abc"]),
+        (row(1.5), ["better: run: it: 1.50 times bare, 2.00 at abc"]),
+        (row(1.5, at_least=True), ["WORSE: run: it: 1.50 times bare, 2.00 at abc"]),
+        (row(2.3, samples=[10.0, 20.0, 25.0, 30.0, 40.0]), []),  # half of 10 over 25: up to 2.4
+        (Row("run", "it", 99.0, "us"), []),
+        (Row("run", "other", 99.0, "us", (), "bare", 1.0), []),
+    ],
+)
+def test_what_became_worse_than_the_kept_ratios(now: Row, says: list[str], tmp_path: Path) -> None:
+    file = tmp_path / "figures.json"
+    assert kept.read(file, "compiled") == {}
+    kept.keep(file, "compiled", "abc", [row(2.0)])
+    kept.keep(file, "Python", "def", [row(7.0)])
+    assert kept.changes(kept.read(file, "compiled"), [now]) == says
+    assert kept.read(file, "compiled, quick") == {}
+
+
+def test_what_is_not_measured_stays_kept(tmp_path: Path) -> None:
+    file = tmp_path / "figures.json"
+    kept.keep(file, "compiled", "abc", [row(2.0), replace(row(3.0), what="other")])
+    kept.keep(file, "compiled", "def", [row(1.0)])
+    found = kept.read(file, "compiled")
+    assert {name: (each["ratio"], each["commit"]) for name, each in found.items()} == {
+        "run: it": (1.0, "def"),
+        "run: other": (3.0, "abc"),
+    }
+
+
+def test_the_kept_figures_name_rows_that_there_are() -> None:
+    """Where a row is named anew, what is kept of it would never be looked at again."""
+    sections = {"run", "stages", "recording", "review", "batch", "start", "memory"}
+    for kind in json.loads(kept.FILE.read_text()).values():
+        assert {name.split(":")[0] for name in kind} <= sections
+        assert all(each["ratio"] > 0.0 and each["commit"] for each in kind.values())
 
 
 def test_time_taken_away_is_a_share() -> None:

@@ -1,4 +1,4 @@
-"""`tools/setup`: what it installs, when it does so again, and what it says first.
+"""`tools/setup`: what it builds and installs, when it does so again, and what it says first.
 
 With programs that only note their call.
 """
@@ -12,8 +12,12 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 # by the script, of the machine's own
-NEEDED = ("dirname", "sed", "cksum", "tr", "grep", "touch", "cat", "env")
+NEEDED = ("dirname", "sed", "cksum", "tr", "grep", "touch", "cat", "env", "find", "sort", "rm")
+NEEDED += ("mkdir",)
 NOTING = '#!/bin/sh\necho "$0 $*" >> {calls}\n'
+# what `pip wheel` leaves
+WHEEL = 'case "$*" in *" wheel "*) mkdir -p "$8" && touch "$8/built.whl" ;; esac\n'
+BUILT = ["wheel", "built.whl", "built.whl"]  # a wheel, put in, and with its dependencies
 
 
 class Project:
@@ -30,9 +34,12 @@ class Project:
         self.programs.mkdir()
         shutil.copy(ROOT / "tools" / "setup", self.folder / "tools")
         shutil.copy(ROOT / "pyproject.toml", self.folder)
+        (self.folder / "atlas_cueing").mkdir()
+        for source in ("atlas_cueing/tick.py", "tools/build_backend.py", "tools/documented.py"):
+            (self.folder / source).touch()
         for name in NEEDED:
             (self.programs / name).symlink_to(shutil.which(name) or name)
-        self.noting(self.folder / ".venv" / "bin" / "python")
+        self.noting(self.folder / ".venv" / "bin" / "python", WHEEL)
         self.program("id", "echo 1000")
 
     def noting(self, program: Path, more: str = "") -> None:
@@ -56,9 +63,8 @@ class Project:
             timeout=60,
             check=False,
         )
-        installed = [
-            line.split()[-1] for line in self.calls.read_text().splitlines() if " install " in line
-        ]
+        calls = self.calls.read_text().splitlines()
+        installed = [_installed(line) for line in calls if " install " in line or " wheel " in line]
         return told.returncode, told.stderr, installed
 
     def replace(self, old: str, new: str) -> None:
@@ -68,6 +74,11 @@ class Project:
         file.write_text(text.replace(old, new))
 
 
+def _installed(call: str) -> str:
+    """What pip or apt-get was to install; "wheel" for a build."""
+    return "wheel" if " wheel " in call else call.split()[-1].split("/")[-1]
+
+
 @pytest.fixture
 def project(tmp_path: Path) -> Project:
     return Project(tmp_path)
@@ -75,7 +86,7 @@ def project(tmp_path: Path) -> Project:
 
 def test_the_second_time_nothing_is_done(project: Project) -> None:
     status, said, installed = project.setup()
-    assert (status, installed) == (0, ["."])
+    assert (status, installed) == (0, BUILT)
     assert "installing atlas_cueing into .venv" in said
     assert project.setup() == (0, "", [])
 
@@ -85,29 +96,46 @@ def test_tool_settings_change_nothing_and_dependencies_do(project: Project) -> N
     project.replace("line-length = 100", "line-length = 99")
     assert project.setup() == (0, "", [])
     project.replace('"numpy>=2.0"', '"numpy>=2.1"')
-    assert project.setup()[2] == ["."]
+    assert project.setup()[2] == BUILT
 
 
 def test_what_dev_or_an_extra_brings_is_not_asked_for_again(project: Project) -> None:
-    assert project.setup("report")[2] == [".[report]"]
+    assert project.setup("report")[2] == ["wheel", "built.whl", "built.whl[report]"]
     assert project.setup()[2] == []
-    assert project.setup("live")[2] == [".[live]"]
+    assert project.setup("live")[2] == ["built.whl[live]"]  # no building
     assert project.setup("dev")[2] == [".[dev]"]
     assert project.setup("preview")[2] == []
+
+
+@pytest.mark.parametrize("changed", ["atlas_cueing/tick.py", "tools/build_backend.py"])
+def test_a_changed_source_is_built_again_but_for_developers(project: Project, changed: str) -> None:
+    project.setup()
+    (project.folder / changed).write_text("changed = True\n")
+    assert project.setup()[2] == BUILT
+    assert [path.name[:6] for path in project.folder.glob(".venv/built-*")] == ["built-"]
+    project.setup("dev")
+    (project.folder / changed).write_text("changed = 2\n")
+    assert [project.setup(*extra)[2] for extra in ([], ["report"], ["dev"])] == [[], [], []]
+
+
+def test_a_developers_environment_stays_one(project: Project) -> None:
+    project.setup("dev")
+    project.replace('"numpy>=2.0"', '"numpy>=2.1"')
+    assert project.setup("report")[2] == [".[dev]"]
 
 
 def test_a_project_that_was_moved_is_set_up_where_it_is(project: Project) -> None:
     project.setup()
     project.folder = project.folder.rename(project.folder.with_name("elsewhere"))
-    assert project.setup()[2] == ["."]
+    assert project.setup()[2] == BUILT
 
 
 def test_a_failed_installation_is_tried_again(project: Project) -> None:
     python = project.folder / ".venv" / "bin" / "python"
     project.noting(python, 'case "$*" in *install*) exit 1 ;; esac\n')
     assert project.setup()[0] == 1
-    project.noting(python)
-    assert project.setup()[2] == ["."]
+    project.noting(python, WHEEL)
+    assert project.setup()[2] == BUILT
 
 
 def test_an_unknown_extra_is_refused(project: Project) -> None:

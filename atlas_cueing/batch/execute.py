@@ -6,25 +6,58 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from ..errors import InputError, OutputError
-from ..run import RunResult, run_scenario
-from ..scenario import load_scenario
+from ..run import RunResult, open_vehicle, run_scenario
+from ..scenario import Scenario, load_scenario
+from ..signals import Vehicle
+from ..vehicles import KeptFlight, RememberedVehicle
 from .job import Job
 from .job_result import JobResult
 from .run_id import run_id
 
 
-def confine(memory: float) -> None:
-    """Bound this process to `memory` GB of address space, without core dumps."""
+def confine(memory: float, beside: int = 0) -> None:
+    """Bound this process to `memory` GB of address space, without core dumps.
+
+    beside: bytes that the worker keeps for all of its runs, which are not counted.
+    """
     _, hard = resource.getrlimit(resource.RLIMIT_AS)
-    bound = int(memory * 1e9)
+    bound = int(memory * 1e9) + beside
     resource.setrlimit(
         resource.RLIMIT_AS, (bound if hard == resource.RLIM_INFINITY else min(bound, hard), hard)
     )
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
-def fly_alone(job: Job, workdir: Path) -> JobResult:
+class OneFlight:
+    """The flight of a job: the kept one, or the model's, which is then kept if that is possible.
+
+    kept: a flight of the same vehicle that is there already. most_bytes: what a new one may take.
+    """
+
+    def __init__(self, kept: KeptFlight | None = None, most_bytes: int = 0) -> None:
+        self._kept = kept
+        self._most = most_bytes
+        self._flown: RememberedVehicle | None = None
+
+    def opened(self, scenario: Scenario) -> Vehicle:
+        """Give the vehicle at its first state. Raises what `open_vehicle` raises."""
+        if self._kept:
+            return self._kept.vehicle()
+        vehicle = open_vehicle(scenario)
+        if not self._most:
+            return vehicle
+        self._flown = RememberedVehicle(vehicle, self._most)
+        return self._flown
+
+    def new(self) -> KeptFlight | None:
+        """Give the flight that was flown now, to its end; None when there is no such."""
+        return self._flown.flight() if self._flown else None
+
+
+def fly_alone(job: Job, workdir: Path, flight: OneFlight | None = None) -> JobResult:
     """Fly the job, write its log into the folder `workdir`, and return the result.
+
+    flight: gives the vehicle; by default the model flies.
 
     Raises only what ends the process.
     """
@@ -41,7 +74,8 @@ def fly_alone(job: Job, workdir: Path) -> JobResult:
             if here != job.id:
                 differs = f"this worker would fly {here}: its versions are not the driver's"
                 return JobResult("worker_differs", differs, id=job.id)
-            result = run_scenario(scenario, workdir / f"{job.id}.mcap")
+            opened = (flight or OneFlight()).opened
+            result = run_scenario(scenario, workdir / f"{job.id}.mcap", opened=opened)
     except MemoryError:
         result = RunResult(
             "out_of_memory", f"needs more than {job.limits.memory:g} GB", left_by(job, workdir)

@@ -41,8 +41,12 @@ def _done(runs: Sequence[PlannedRun], store: ResultStore, retry: bool) -> dict[s
 
 
 def _todo(runs: Sequence[PlannedRun], done: Mapping[str, JobResult]) -> list[PlannedRun]:
-    # the longest first: one that begins last would run alone at the end
-    return sorted((run for run in runs if run.id not in done), key=lambda run: -run.ticks)
+    # the longest first: one that begins last would run alone at the end; one flight after the other
+    place: dict[str, int] = {}
+    for run in runs:
+        place.setdefault(run.flight, len(place))
+    left = [run for run in runs if run.id not in done]
+    return sorted(left, key=lambda run: (-run.ticks, place[run.flight]))
 
 
 def fly_batch(

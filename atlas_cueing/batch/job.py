@@ -30,6 +30,8 @@ class Job:
 
     id: of the run. place: where results go.
     files: the files of the scenario by name, bytes as Latin-1, which loses none.
+    flight: the same for runs in which the vehicle does the same, which then flies once; "" for
+        one that is flown by itself.
     trust_models: whether the user trusts its script or aircraft.
     large: absolute paths of files that are not carried along, by name. The run's id holds their
         content, so a worker that finds another one there does not fly.
@@ -41,6 +43,7 @@ class Job:
     limits: RunLimits
     trust_models: bool = False
     large: dict[str, str] = field(default_factory=dict)
+    flight: str = ""
 
     @classmethod
     def of(cls, run: PlannedRun, place: str, limits: RunLimits) -> Self:
@@ -50,7 +53,7 @@ class Job:
             name: str(path.resolve())
             for name, path in run.scenario.live_flight.large_files().items()
         }
-        return cls(run.id, place, files, limits, run.scenario.trust_models, large)
+        return cls(run.id, place, files, limits, run.scenario.trust_models, large, run.flight)
 
     def to_line(self) -> bytes:
         """Return the job as one line of JSON."""
@@ -67,4 +70,5 @@ class Job:
             RunLimits(**table["limits"]),
             table["trust_models"],
             table["large"],
+            table["flight"],
         )

@@ -10,7 +10,7 @@ from typing import Any
 from ..errors import InputError, ScenarioError
 from ..run import build_pipeline, flight_length
 from ..scenario import Scenario, Variant, load_variants, scenario_files
-from .run_id import run_id
+from .run_id import flight_id, run_id
 
 MANY = 1000  # runs; to check as many takes seconds
 MOST_REFUSED = 500  # runs of a file; what is wrong with that many is mostly one thing
@@ -21,6 +21,7 @@ class PlannedRun:
     """One run: `settings` is what its sweep set, dotted key to value.
 
     duration: of the flight as far as the files tell, s; None when unknown. step: of the vehicle, s.
+    flight: the same for runs in which the vehicle does the same.
     """
 
     id: str
@@ -29,6 +30,7 @@ class PlannedRun:
     settings: dict[str, Any]
     duration: float | None
     step: float
+    flight: str
 
     @property
     def ticks(self) -> float:
@@ -104,4 +106,5 @@ def _planned(file: Path, variant: Variant) -> PlannedRun:
     if not scenario.needs_whole_flight:
         build_pipeline(scenario, step)
     length = flight_length(flight, scenario.file.duration_s)
-    return PlannedRun(run_id(scenario), file, scenario, variant.settings, length, step)
+    names = run_id(scenario), file, scenario, variant.settings
+    return PlannedRun(*names, length, step, flight_id(scenario))

@@ -11,6 +11,7 @@ from types import TracebackType
 from typing import Self
 
 from .job import Job
+from .job_queue import JobQueue
 from .job_result import JobResult
 
 Stop = Callable[[], bool]
@@ -107,7 +108,7 @@ class _Crew:
     """Workers, all of them busy, and the jobs that are left."""
 
     def __init__(self, todo: Iterable[Job]) -> None:
-        self._todo = iter(todo)
+        self._todo = JobQueue(todo)
         self._selector = DefaultSelector()
 
     @property
@@ -117,7 +118,7 @@ class _Crew:
 
     def hire(self) -> None:
         """Start a new worker with the next job, if there is one."""
-        job = next(self._todo, None)
+        job = self._next("")
         if job:
             self._begin(job, 0)
 
@@ -138,13 +139,18 @@ class _Crew:
             self._drop(key.data)
         self._selector.close()
 
+    def _next(self, flight: str) -> Job | None:
+        """Give the next job for a worker that last flew `flight`, or nothing yet ("")."""
+        workers = [key.data for key in self._selector.get_map().values()]
+        return self._todo.next(flight, {each.job.flight for each in workers if each.job})
+
     def _begin(self, job: Job, losses: int) -> None:
         worker = Worker()
         self._selector.register(worker, EVENT_READ, worker)
         worker.submit(job, losses)
 
     def _go_on(self, worker: Worker) -> None:
-        job = next(self._todo, None)
+        job = self._next(worker.job.flight if worker.job else "")
         if job:
             worker.submit(job)
         else:

@@ -28,6 +28,27 @@ def run_id(scenario: Scenario) -> str:
     return f"{'-'.join(parts)}-{digest(scenario.attachments() | large | own)[:_DIGITS]}"
 
 
+def flight_id(scenario: Scenario) -> str:
+    """Hash of what the vehicle does, which is the same for whatever rides it.
+
+    A function of the vehicle's table, the duration and the files of the flight, each known by its
+    place, size and time of change: for one batch, whose runs are checked by `run_id` as well.
+    """
+    flight, file = scenario.flight, scenario.file
+    files = {**flight.files(), **flight.large_files()}
+    parts = {f"file/{name}": _stamp(path) for name, path in files.items()}
+    keys = repr((file.vehicle, file.duration_s, scenario.trust_models))
+    return digest(parts | {"keys": keys.encode(errors="backslashreplace")})[:_DIGITS]
+
+
+def _stamp(path: Path) -> bytes:
+    try:
+        found = path.stat()
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+    return repr((path.resolve(), found.st_size, found.st_mtime_ns)).encode(errors="replace")
+
+
 def _file_hash(path: Path) -> bytes:
     try:
         with path.open("rb") as file:

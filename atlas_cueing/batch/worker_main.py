@@ -4,8 +4,9 @@ It is started as `python -m atlas_cueing.batch.worker_main`.
 
 Jobs come in on stdin, a line each, and results go out on stdout, a line each. A run costs a fork
 instead of an interpreter with its libraries, and harms no other run when it crashes, hangs or uses
-up memory. When stdin ends, the run under way is killed: a driver that has ended leaves nothing
-behind.
+up memory. A flight that a run flew to its end is kept, and ridden by the runs that follow: what a
+vehicle does depends on nothing that rides it. When stdin ends, the run under way is killed: a
+driver that has ended leaves nothing behind.
 """
 
 import gc
@@ -20,28 +21,35 @@ from time import monotonic
 import numpy.fft  # noqa: F401 - numpy loads it when it is first used, which would be in every child
 
 from ..errors import OutputError
-from .execute import confine, fly_alone, left_by
+from ..vehicles import flight_of_bytes
+from .execute import OneFlight, confine, fly_alone, left_by
 from .isolation import ChildExit, in_child
 from .job import Job
 from .job_result import JobResult, done_by_another, keep
+from .kept_flights import KeptFlights
 from .store import ResultStore, open_store
+
+_FLIGHT = ".flight"  # what a child leaves for the runs that follow
 
 
 def main() -> None:
     """Serve until stdin ends."""
     replies = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints must not get among the results
+    flights = KeptFlights()
     gc.collect()
     gc.freeze()  # so that children do not copy what they never change
     with suppress(EOFError):
         while line := sys.stdin.buffer.readline():
-            result = isolated(Job.from_line(line))
+            result = isolated(Job.from_line(line), flights)
             replies.write(json.dumps(result.to_json()).encode() + b"\n")
             replies.flush()
 
 
-def isolated(job: Job) -> JobResult:
+def isolated(job: Job, flights: KeptFlights) -> JobResult:
     """Fly the job in a child process, and deliver its log and result.
+
+    flights: those that are kept; that of the job is among them afterwards if it came to its end.
 
     The result of a child that died says how it died. A job that has been done meanwhile is not
     flown again: a cluster may submit it twice when it loses a worker or the driver. Raises
@@ -54,26 +62,36 @@ def isolated(job: Job) -> JobResult:
             store.claimed(job.id),
             tempfile.TemporaryDirectory(prefix="atlas_cueing_") as scratch,
         ):
-            return _flown(job, store, Path(scratch))
+            return _flown(job, store, Path(scratch), flights)
     except (OSError, OutputError) as error:
         return JobResult("recording_failed", f"{job.id}: {error}", id=job.id)
 
 
-def _flown(job: Job, store: ResultStore, scratch: Path) -> JobResult:
+def _flown(job: Job, store: ResultStore, scratch: Path, flights: KeptFlights) -> JobResult:
     workdir = store.workdir(scratch)
+    flight = OneFlight(flights.get(job.flight), flights.capacity if job.flight else 0)
+    kept = scratch / _FLIGHT
 
     def work() -> bytes:
         """Return whether the job was flown now, and its result, as JSON."""
         tempfile.tempdir = str(scratch)
-        confine(job.limits.memory)
+        # what is kept, what is written down, and its bytes
+        confine(job.limits.memory, 3 * flights.capacity)
         done = done_by_another(job.id, store)
-        return json.dumps([done is None, (done or fly_alone(job, workdir)).to_json()]).encode()
+        result = done or fly_alone(job, workdir, flight)
+        new = flight.new()
+        if new:
+            with kept.open("wb") as file:
+                file.writelines(new.parts())
+        return json.dumps([done is None, result.to_json()]).encode()
 
     begun = monotonic()
     ended = in_child(work, job.limits.time)
     if ended.answer and not ended.late:
         new, table = json.loads(ended.answer)
         result = JobResult.from_json(table)
+        if kept.exists():
+            flights.put(job.flight, flight_of_bytes(kept.read_bytes()))
     else:
         cause, reason = _cause(job, ended)
         log, wall, new = left_by(job, workdir), monotonic() - begun, True

@@ -5,7 +5,6 @@ from math import inf, nan
 import numpy as np
 
 from ..perception import Observer
-from ..rotation import Vec3
 from ..rotations import Array
 from .run_columns import RunColumns, mean_step
 from .statistics import Magnitudes, distance
@@ -75,25 +74,20 @@ class Perceived:
 
     def _perceive(self, means: Array) -> None:
         """Take the observers through the steps `means` (n, 12): f and w of pilot and of rider."""
-        up, turn = np.empty((2, len(means), 3)), np.empty((2, len(means), 3))
-        for i, row in enumerate(means.tolist()):
-            for head, observer in enumerate(self._stepped(row)):
-                up[head, i], turn[head, i] = observer.up, observer.rate
-        apart, together = distance(up[0], up[1]), distance(up[0], -up[1])
+        motions = means[:, :6].tolist(), means[:, 6:].tolist()
+        perceived: list[list[list[float]]] = [[], []]
+        if self._heads is None:  # the first step only starts them
+            self._heads = self._started(motions[0].pop(0)), self._started(motions[1].pop(0))
+            perceived = [[[*head.up, *head.rate]] for head in self._heads]
+        for head, motion, found in zip(self._heads, motions, perceived, strict=True):
+            found += head.follow(motion)
+        pilot, rider = np.array(perceived)
+        apart = distance(pilot[:, :3], rider[:, :3])
+        together = distance(pilot[:, :3], -rider[:, :3])
         self._tilt.add(2.0 * np.arctan2(apart, together))
-        self._turn.add(distance(turn[0], turn[1]))
+        self._turn.add(distance(pilot[:, 3:], rider[:, 3:]))
 
-    def _stepped(self, row: list[float]) -> tuple[Observer, Observer]:
-        """Give both observers a step on; the first one only starts them."""
-        f_p, w_p, f_r, w_r = (_vector(row[k : k + 3]) for k in (0, 3, 6, 9))
-        if self._heads is None:
-            self._heads = Observer(self._dt, f_p, w_p), Observer(self._dt, f_r, w_r)
-        else:
-            self._heads[0].step(f_p, w_p)
-            self._heads[1].step(f_r, w_r)
-        return self._heads
-
-
-def _vector(row: list[float]) -> Vec3:
-    x, y, z = row
-    return x, y, z
+    def _started(self, row: list[float]) -> Observer:
+        """Give an observer that begins with force and rate, six numbers."""
+        fx, fy, fz, wx, wy, wz = row
+        return Observer(self._dt, (fx, fy, fz), (wx, wy, wz))

@@ -106,6 +106,17 @@ class Observer:
         self._error = self._misled(f)
         self.rate = add(add(sensed, self._stored), scale(self._turn, self._error))
 
+    def follow(self, motion: list[list[float]]) -> list[list[float]]:
+        """Perceive the next ticks: force (m/s^2) and rate (rad/s), six numbers for each.
+
+        Returns up and perceived rate (rad/s) after each, six numbers as well.
+        """
+        perceived: list[list[float]] = []
+        for fx, fy, fz, wx, wy, wz in motion:
+            self.step((fx, fy, fz), (wx, wy, wz))
+            perceived.append([*self.up, *self.rate])
+        return perceived
+
     def _store(self, v: Vec3, middle: Vec3) -> Vec3:
         """Give v one tick on, by the trapezoid; `middle` is the rate less v half way, rad/s."""
         share, half = self._share, self._half

@@ -20,6 +20,7 @@ from .stop_request import StopRequest
 from .ticks import ticks
 
 Progress: TypeAlias = Callable[[float], None]  # called now and then with the flight time, s
+Open: TypeAlias = Callable[[Scenario], Vehicle]  # what `open_vehicle` does, or in its place
 
 # Attitude and body rates of one step agree to dt^2/2 times the angular acceleration: 0.04 deg at
 # 120 Hz and 20 rad/s^2. From here on (assumed) a difference is noted in /status as a jump; at 10 Hz
@@ -36,7 +37,11 @@ class _Outcome:
 
 
 def run_scenario(
-    scenario: Scenario, log: str | Path, *, progress: Progress | None = None
+    scenario: Scenario,
+    log: str | Path,
+    *,
+    progress: Progress | None = None,
+    opened: Open | None = None,
 ) -> RunResult:
     """Fly `scenario` and write `log`, which is replaced if it exists.
 
@@ -45,6 +50,7 @@ def run_scenario(
     log is finished.
 
     progress: called now and then with the flight time, s.
+    opened: gives the vehicle; by default the one that the scenario asks for.
 
     Example:
         >>> from atlas_cueing import load_scenario, run_scenario
@@ -57,7 +63,7 @@ def run_scenario(
 
     """
     begun, log = perf_counter(), Path(log)
-    flight = _prepared(scenario)
+    flight = _prepared(scenario, opened or open_vehicle)
     evaluator = Evaluator(scenario.platform)
     recorder = open_recorder(scenario, log, observer=evaluator.add)
     sink = _RunLog(recorder, progress or (lambda _: None))
@@ -75,10 +81,10 @@ def run_scenario(
 _Ready: TypeAlias = tuple[Vehicle, Pipeline]
 
 
-def _prepared(scenario: Scenario) -> _Ready | _Outcome:
+def _prepared(scenario: Scenario, opened: Open) -> _Ready | _Outcome:
     """Open the vehicle, and build the pipeline for it; a failing first state is an outcome."""
     try:
-        vehicle = open_vehicle(scenario)
+        vehicle = opened(scenario)
     except VehicleError as error:
         return _Outcome("vehicle_failed", str(error))
     return prepare(scenario, vehicle)

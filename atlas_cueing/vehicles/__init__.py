@@ -14,6 +14,7 @@ from .jsbsim.flights import AircraftFlight, InitialConditions, ScriptFlight, Tim
 from .jsbsim.jsbsim_vehicle import JsbsimVehicle
 from .jsbsim.library import own_aircraft, own_scripts, suggestion
 from .jsbsim.loading import input_objections
+from .kept_flight import KeptFlight, RememberedVehicle, flight_of_bytes
 from .limited_duration import LimitedDuration
 from .packets import PacketFlight
 from .recorded_vehicle import RecordedVehicle
@@ -32,10 +33,12 @@ __all__ = [
     "FlownAhead",
     "InitialConditions",
     "JsbsimVehicle",
+    "KeptFlight",
     "LimitedDuration",
     "PacketError",
     "PacketFlight",
     "RecordedVehicle",
+    "RememberedVehicle",
     "RigidBodyFlight",
     "RigidBodyVehicle",
     "ScriptFlight",
@@ -45,6 +48,7 @@ __all__ = [
     "TimedInput",
     "TrackFlight",
     "TrackVehicle",
+    "flight_of_bytes",
     "input_objections",
     "own_aircraft",
     "own_scripts",

@@ -32,10 +32,10 @@ from pathlib import Path
 from atlas_cueing.batch import execute as alone
 from atlas_cueing.batch import worker_main as worker
 fly = worker.fly_alone
-def sabotaged(job, workdir):
+def sabotaged(job, workdir, flight):
     if "-attitude-" in job.id:
         {deed}
-    return fly(job, workdir)
+    return fly(job, workdir, flight)
 worker.fly_alone = sabotaged
 worker.main()
 """

@@ -46,7 +46,7 @@ def test_a_model_that_goes_wild(tmp_path: Path) -> None:
 
 
 def broken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: Exception) -> JobResult:
-    def fail(*_: object) -> None:
+    def fail(*_: object, **__: object) -> None:
         raise error
 
     monkeypatch.setattr(alone, "run_scenario", fail)

@@ -69,8 +69,8 @@ def jobs(folder: Path, limits: RunLimits) -> list[Job]:
             "needs more than 1 GB: ended with exit status 1",
         ),
         (
-            "alone.run_scenario = lambda *_: bytearray(2 * 10**9)"
-            "\n        return fly(job, workdir)",
+            "alone.run_scenario = lambda *_, **__: bytearray(2 * 10**9)"
+            "\n        return fly(job, workdir, flight)",
             RunLimits(memory=1.0),
             "out_of_memory",
             "needs more than 1 GB",
@@ -151,8 +151,8 @@ def test_when_the_worker_is_killed_the_run_goes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     deed = (
-        "alone.run_scenario = lambda *_: (Path(job.place, 'pid').write_text(str(os.getpid())),"
-        " time.sleep(600))"
+        "alone.run_scenario = lambda *_, **__: (Path(job.place, 'pid')"
+        ".write_text(str(os.getpid())), time.sleep(600))"
     )
     sabotage(monkeypatch, deed)
     process = subprocess.Popen(workers._COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE)

@@ -1,5 +1,6 @@
 """The flights that are measured."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from atlas_cueing.scenario import Scenario, load_scenario
@@ -71,6 +72,11 @@ def sweep_file(folder: Path, runs: int, duration: float) -> Path:
     return script_file(folder, STAGED, duration, _SWEEP.format(gains=gains))
 
 
-def script_scenario(folder: Path, name: str, duration: float, method: str = "blend") -> Scenario:
-    """The same, loaded."""
-    return load_scenario(script_file(folder, name, duration), [f"cueing.method={method}"])
+def script_scenario(
+    folder: Path, name: str, duration: float, method: str = "blend", *, loads: bool = True
+) -> Scenario:
+    """The same, loaded; without `loads` on a platform without masses."""
+    scenario = load_scenario(script_file(folder, name, duration), [f"cueing.method={method}"])
+    if loads:
+        return scenario
+    return replace(scenario, platform=scenario.platform.model_copy(update={"part": None}))

@@ -13,17 +13,20 @@ from statistics import median
 
 import jsbsim
 
+from atlas_cueing.cueing import DEFAULT_METHOD
 from atlas_cueing.run import run_scenario
 from atlas_cueing.scenario import Scenario
 from atlas_cueing.vehicles import own_scripts
 from atlas_cueing.vehicles.jsbsim.jsbsim_log import capture
 
 from .effort import Bench
-from .flights import SCRIPTS, script_scenario
+from .flights import SCRIPTS, STAGED, script_scenario
 from .rows import Asked, Row
 from .timing import Cost, cost, interleaved
 
 SHORT = 1.0  # s of flight
+# beside `blend` with loads: method, and whether the platform has loads
+OTHERS = (("blend", False), (DEFAULT_METHOD, True), (DEFAULT_METHOD, False))
 ASKED = Asked(2.0, of_ratio=True, goal=1.5)
 
 
@@ -62,17 +65,25 @@ class Bare:
 
 
 def measure(bench: Bench) -> Iterator[Row]:
-    """Ratio, wall times and start-up of each script."""
+    """Ratio, wall times and start-up of each script; the ratio of the other kinds of run."""
     for script in SCRIPTS:
         bench.say(f"run: {script}, {bench.effort.rounds} rounds")
         long, short = (
             script_scenario(bench.folder, script, duration)
             for duration in (bench.effort.flight, SHORT)
         )
-        yield from _rows(bench, script, long, short)
+        yield from _rows(bench, script, script, long, short)
+    for method, loads in OTHERS:
+        name = f"{STAGED}, {method}{'' if loads else ', no loads'}"
+        bench.say(f"run: {name}, {bench.effort.rounds} rounds")
+        long, short = (
+            script_scenario(bench.folder, STAGED, duration, method, loads=loads)
+            for duration in (bench.effort.flight, SHORT)
+        )
+        yield next(_rows(bench, name, STAGED, long, short))
 
 
-def _rows(bench: Bench, script: str, long: Scenario, short: Scenario) -> Iterator[Row]:
+def _rows(bench: Bench, name: str, script: str, long: Scenario, short: Scenario) -> Iterator[Row]:
     log = bench.folder / "run.mcap"
     many, few = _ticks(long, log), _ticks(short, log)  # warms up, too
     bare = Bare(script, many - 1)
@@ -92,7 +103,7 @@ def _rows(bench: Bench, script: str, long: Scenario, short: Scenario) -> Iterato
     ratios = [tick.cpu / step.cpu for tick, step in zip(ticks, steps, strict=True)]
     spread = f"ratios by round {min(ratios):.2f} to {max(ratios):.2f}"
     yield _row(
-        f"{script}: run, CPU a tick",
+        f"{name}: run, CPU a tick",
         "us",
         _cpu(ticks, 1e6),
         "bare JSBSim loop",
@@ -101,8 +112,8 @@ def _rows(bench: Bench, script: str, long: Scenario, short: Scenario) -> Iterato
         spread,
     )
     walls = [1e6 * tick.wall for tick in ticks], [1e6 * step.wall for step in steps]
-    yield _row(f"{script}: run, wall a tick", "us", walls[0], "bare JSBSim loop", walls[1])
-    what = f"{script}: start-up and end, warm process, CPU"
+    yield _row(f"{name}: run, wall a tick", "us", walls[0], "bare JSBSim loop", walls[1])
+    what = f"{name}: start-up and end, warm process, CPU"
     yield _row(what, "ms", _cpu(starts, 1e3), "load_script and run_ic", _cpu(found["load"], 1e3))
 
 
