@@ -70,7 +70,7 @@ def test_a_jump_is_caught_up_and_ends_on_the_cue() -> None:
 
 
 def test_a_first_pose_that_is_not_safe_at_rest_is_refused_with_numbers() -> None:
-    """The sphere's weight hangs 0.3 m off its centre."""
+    """The weight hangs 1.2 m off the centre."""
     kept = Kept("atlas-2.9m", 0.0)
     body = kept.model.body
     object.__setattr__(kept.model, "body", type(body)(body.mass, (1.2, 0.0, 0.0), body.inertia_S))
