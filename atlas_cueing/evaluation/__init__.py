@@ -25,7 +25,7 @@ recorder and review both use (`gathered`).
 """
 
 from .consistency import Consistency
-from .contact_loads import ContactLoads, load_violations, traction_lines
+from .contact_loads import ContactLoads, load_violations, traction_lines, traction_lost
 from .engaged_segment import engaged_segment
 from .limit_use import LimitUse, by_limit, violations
 from .metric import Cell, Metric, Phrase, Shown
@@ -53,5 +53,6 @@ __all__ = [
     "mismatch_ratio",
     "shown",
     "traction_lines",
+    "traction_lost",
     "violations",
 ]

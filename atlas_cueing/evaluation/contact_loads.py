@@ -131,6 +131,11 @@ def traction_lines(figures: dict[str, float], model: LoadModel) -> list[str]:
     """
     use, slips = figures["traction_use_max"], figures["traction_slip_share"]
     most = 1.0 / model.traction_margin
+    if model.traction_kept and use <= most * (1.0 + 1e-9):
+        return [
+            f"traction kept: {use:.3f} of the friction in use at most, {most:.3f} allowed; normal"
+            f" force {figures['normal_min_n']:.6g} N at the least"
+        ]
     if not slips > 0.0:
         line = f"traction: {use:.3f} of the friction in use at most, {most:.3f} with the margin"
         return [f"{line} of {model.traction_margin:g}"] if use > most else []
@@ -144,6 +149,13 @@ def traction_lines(figures: dict[str, float], model: LoadModel) -> list[str]:
             f" force {figures['normal_min_n']:.6g} N at the least"
         )
     return lines
+
+
+def traction_lost(figures: dict[str, float], model: LoadModel) -> bool:
+    """Whether a platform that keeps traction has used more than its margin leaves."""
+    return model.traction_kept and not (
+        figures["traction_use_max"] * model.traction_margin <= 1.0 + 1e-9
+    )
 
 
 def _preload(needed: float) -> str:

@@ -26,6 +26,7 @@ from .control import (
 from .control.drive_monitor import TIMEOUT
 from .control.pose import Pose
 from .input import Source, no_vehicle
+from .kept_contacts import contact_check
 from .loop import LEAD, Drives, Loop, Output
 from .open_source import open_source
 from .output import PoseProcess, Recorded, RecorderProcess, limits_hash
@@ -192,7 +193,7 @@ class LiveSession:
             self._dt,
             options.pose,
         )
-        guard = Guard(self._dt, platform.wheel_limit_values(), limits)
+        guard = Guard(self._dt, platform.wheel_limit_values(), limits, contact_check(platform))
         operator = OperatorInputs(
             *(self.buttons.edges, stop_requests, options.duration, options.attended),
             losses=self.helpers.losses,

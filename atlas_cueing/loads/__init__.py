@@ -18,6 +18,7 @@ from .balance import LARGEST_USE, Loads, balance, platform_loads
 from .body import Body, Part, body_of, inertia_tensor, is_realizable
 from .columns import load_columns
 from .contact import UNLIMITED, Drive, Preload, Support, WheelContact
+from .kept_rows import KeptRows
 from .least_use import least_use_drive
 from .model import LoadModel
 from .reserve import Reserve, reserve
@@ -28,6 +29,7 @@ __all__ = [
     "UNLIMITED",
     "Body",
     "Drive",
+    "KeptRows",
     "LoadModel",
     "Loads",
     "Part",

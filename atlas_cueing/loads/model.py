@@ -9,14 +9,17 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import inf
 
 import numpy as np
 
 from ..errors import InputError
 from ..rotation import Mat3, Vec3
 from ..rotations import Array, cross
+from ..signals import STANDARD_GRAVITY
 from .body import Body
 from .contact import UNLIMITED, Drive, Preload, Support, WheelContact
+from .kept_rows import KeptRows
 from .tick_loads import WheelLoads
 
 LARGEST_CONDITION_NUMBER = 1e6
@@ -29,7 +32,8 @@ class LoadModel:
     """A sphere of `sphere_radius` (m) with its body and all that touches it; `name` for messages.
 
     wheels: three or more. traction_margin: reserve of friction that a motion should keep.
-    traction_finding: whether slip and lift-off are findings, or remarks.
+    traction_finding: whether slip and lift-off are findings, or remarks. traction_kept: whether
+    smoothing keeps traction with the margin, and torques.
     """
 
     name: str
@@ -41,6 +45,7 @@ class LoadModel:
     drive: Drive = UNLIMITED
     traction_margin: float = 1.25
     traction_finding: bool = False
+    traction_kept: bool = False
 
     def check(self) -> None:
         """Refuse what has no definite loads.
@@ -179,6 +184,37 @@ class LoadModel:
             coulomb=_vector(self.coulomb),
             friction=_vector(self.friction),
         )
+
+    def kept_rows(self) -> KeptRows:
+        """What a motion of three wheels has to keep. Raises InputError for any other number."""
+        loads = self.per_tick()
+        middle, spread = _moments(np.array(self.body.inertia_S))
+        rows, supports = self.normal_from_need[:3], self.normal_from_need[3:]
+        offset = self.preload_W - self.unloaded @ self.all_contacts
+        rest = self.unloaded + self.normal_from_need @ offset
+        weight = np.array([0.0, 0.0, self.body.mass * STANDARD_GRAVITY])
+        of_drive = self.V.T @ self.drive_from_moment
+        return KeptRows(
+            loads=loads,
+            inertia_middle=middle,
+            inertia_spread=spread,
+            sphere_from_wheels=_matrix(self.sphere_from_wheels),
+            normal_from_moment=_matrix(rows @ of_drive),
+            grip=_vector(self.friction / self.traction_margin),
+            standing=_vector((rest - self.normal_from_need @ weight)[:3]),
+            torque=inf if self.drive.torque is None else self.drive.torque,
+            supports=[
+                (_vector(row @ of_drive), _vector(row), float(alone))
+                for row, alone in zip(supports, rest[3:], strict=True)
+            ],
+        )
+
+
+def _moments(inertia: Array) -> tuple[float, float]:
+    """Middle of the principal moments, and half of their spread, kg m^2."""
+    moments = np.linalg.eigvalsh(inertia)
+    low, high = float(moments[0]), float(moments[-1])
+    return 0.5 * (low + high), 0.5 * (high - low)
 
 
 def _vector(v: Array) -> Vec3:

@@ -74,26 +74,26 @@ class WheelLoads:
             coulomb: N m.
             friction: coefficients.
         """
-        self._mass = mass
-        self._com = com_S
-        self._inertia = inertia_S
-        self._drive_from_moment = drive_from_moment
-        self._force_from_drive = force_from_drive
-        self._normal_from_push = normal_from_push
-        self._normal_at_rest = normal_at_rest
-        self._radius = radius
-        self._wheel_inertia = inertia
-        self._viscous = viscous
-        self._coulomb = coulomb
-        self._friction = friction
+        self.mass = mass
+        self.com = com_S
+        self.inertia = inertia_S
+        self.drive_from_moment = drive_from_moment
+        self.force_from_drive = force_from_drive
+        self.normal_from_push = normal_from_push
+        self.normal_at_rest = normal_at_rest
+        self.radius = radius
+        self.wheel_inertia = inertia
+        self.viscous = viscous
+        self.coulomb = coulomb
+        self.friction = friction
 
     def loads(self, motion: Motion, wheels: WheelSpeeds) -> TickLoads:
         """Give the loads of a motion whose wheels turn as `wheels` says."""
-        M, F = self._wrench(motion.q_WS, motion.w_WS_W, motion.alpha_WS_W, motion.a_WS_W)
-        drive = apply(self._drive_from_moment, M)  # (3)
-        pulled = apply(self._force_from_drive, drive)
+        M, F = self.wrench(motion.q_WS, motion.w_WS_W, motion.alpha_WS_W, motion.a_WS_W)
+        drive = apply(self.drive_from_moment, M)  # (3)
+        pulled = apply(self.force_from_drive, drive)
         push = (pulled[0] - F[0], pulled[1] - F[1], pulled[2] - F[2])
-        n, rest = apply(self._normal_from_push, push), self._normal_at_rest
+        n, rest = apply(self.normal_from_push, push), self.normal_at_rest
         normal = (n[0] + rest[0], n[1] + rest[1], n[2] + rest[2])  # (7)
         w, dw = wheels.speed, wheels.acceleration
         torque = (
@@ -101,7 +101,7 @@ class WheelLoads:
             self._torque(1, drive[1], w[1], dw[1]),
             self._torque(2, drive[2], w[2], dw[2]),
         )
-        mu = self._friction
+        mu = self.friction
         return TickLoads(
             motion.time,
             drive,
@@ -115,12 +115,12 @@ class WheelLoads:
             ),
         )
 
-    def _wrench(self, q: Quat, w_W: Vec3, alpha_W: Vec3, a_W: Vec3) -> tuple[Vec3, Vec3]:
+    def wrench(self, q: Quat, w_W: Vec3, alpha_W: Vec3, a_W: Vec3) -> tuple[Vec3, Vec3]:
         """Moment and force on the sphere, W ((1), (2))."""
-        back, m, c = conjugate(q), self._mass, self._com
+        back, m, c = conjugate(q), self.mass, self.com
         w, alpha = rotate(back, w_W), rotate(back, alpha_W)
         f = rotate(back, (a_W[0], a_W[1], a_W[2] + STANDARD_GRAVITY))
-        spun, gyro = apply(self._inertia, alpha), cross(w, apply(self._inertia, w))
+        spun, gyro = apply(self.inertia, alpha), cross(w, apply(self.inertia, w))
         hung = cross(c, f)
         led, pulled = cross(alpha, c), cross(w, cross(w, c))
         M = (
@@ -137,10 +137,8 @@ class WheelLoads:
 
     def _torque(self, i: int, drive: float, w: float, dw: float) -> float:
         """Torque at an axle (4)."""
-        coulomb = self._coulomb[i] if w > 0.0 else -self._coulomb[i] if w < 0.0 else 0.0
-        return (
-            self._radius[i] * drive + self._wheel_inertia[i] * dw + self._viscous[i] * w + coulomb
-        )
+        coulomb = self.coulomb[i] if w > 0.0 else -self.coulomb[i] if w < 0.0 else 0.0
+        return self.radius[i] * drive + self.wheel_inertia[i] * dw + self.viscous[i] * w + coulomb
 
 
 def _use(drive: float, grip: float) -> float:

@@ -1,9 +1,10 @@
 """A scenario's pipeline."""
 
 from collections.abc import Sequence
+from contextlib import suppress
 
 from ..cueing import CueSource, PlanParameters, build_cueing, needs_flight
-from ..errors import InputError, Mistake, ScenarioError, SlipConditionError
+from ..errors import InputError, MethodError, Mistake, ScenarioError, SlipConditionError
 from ..pipeline import Pipeline
 from ..scenario.mistakes import SET, dotted, shown
 from ..scenario.platform_file import without_room
@@ -50,6 +51,7 @@ def build_pipeline(
             sphere_from_wheels=wheels.sphere_from_wheels,
             wheel_limits=platform.wheel_limit_values(),
             stage_limits=platform.stage_limit_values(),
+            contacts=platform.kept_rows(),
         )
         cueing = _cueing(scenario, dt, states)
     except ValueError as error:
@@ -67,9 +69,23 @@ def prepare(scenario: Scenario, vehicle: Vehicle) -> tuple[Vehicle, Pipeline]:
     returned plays it back; any other is returned as it is. Raises what `build` raises.
     """
     if not scenario.needs_whole_flight:
+        _check_first_pose(scenario, vehicle, None)
         return vehicle, build_pipeline(scenario, vehicle.dt)
     ahead = FlownAhead(vehicle)
+    _check_first_pose(scenario, ahead, ahead.states)
     return ahead, build_pipeline(scenario, ahead.dt, ahead.states)
+
+
+def _check_first_pose(
+    scenario: Scenario, vehicle: Vehicle, states: Sequence[VehicleState] | None
+) -> None:
+    """Raise InputError for a first pose that is not safe at rest, where traction is kept.
+
+    A pipeline of its own makes that pose, before anything is written.
+    """
+    if scenario.platform.kept_rows() is not None:
+        with suppress(MethodError):  # the run itself tells of it
+            build_pipeline(scenario, vehicle.dt, states).step(vehicle.state)
 
 
 def _wheels(scenario: Scenario) -> Wheels:

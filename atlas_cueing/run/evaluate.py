@@ -17,6 +17,7 @@ from ..evaluation import (
     engaged_segment,
     load_violations,
     traction_lines,
+    traction_lost,
     violations,
 )
 from ..recording import Log, read_log
@@ -157,6 +158,7 @@ class _Found:
         if self._model:
             found += load_violations(loads, self._model)
             slips = loads["traction_slip_share"] > 0.0 and self._model.traction_finding
-            (found if slips else remarks).extend(traction_lines(loads, self._model))
+            lost = traction_lost(loads, self._model)
+            (found if slips or lost else remarks).extend(traction_lines(loads, self._model))
         metrics = self._metrics.figures() | trust | loads
         return Evaluation(metrics, use, tuple(found), tuple(remarks))

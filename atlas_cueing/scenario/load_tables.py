@@ -166,7 +166,7 @@ class SupportTable(ScenarioTable):
 
 
 class TractionTable(ScenarioTable):
-    """`[traction]`: reserve of friction to keep, and whether slip and lift-off are findings."""
+    """`[traction]`: reserve of friction, whether motions keep it, whether slip is a finding."""
 
     margin: Annotated[
         float,
@@ -176,6 +176,9 @@ class TractionTable(ScenarioTable):
     report: Annotated[
         Literal["remark", "finding"], says("whether slip and lift-off are remarks or findings")
     ] = "remark"
+    keep: Annotated[
+        bool | None, says("true: every motion keeps traction with its margin, and torques")
+    ] = None
 
 
 def missing_keys(wheels: Sequence[Any], supports: Any) -> list[str]:

@@ -10,9 +10,9 @@ from unicodedata import category, normalize
 from pydantic import BeforeValidator, ValidationInfo, field_validator, model_validator
 
 from ..errors import InputError
-from ..loads import UNLIMITED, LoadModel, WheelContact, body_of
+from ..loads import UNLIMITED, KeptRows, LoadModel, WheelContact, body_of
 from ..rotation import ZERO, Vec3, add, norm
-from ..signals import StageLimits, WheelLimits
+from ..signals import SOFT_STAGE_SHARE, SOFT_WHEEL_SHARE, StageLimits, WheelLimits
 from ..wheels import Geometry, OmniWheel, RollerRows
 from .load_tables import (
     SEVERAL,
@@ -271,6 +271,12 @@ class Platform(ScenarioTable):
         """Whether loads are known: the platform has masses, and its wheels can turn it."""
         return self.part is not None and self.geometry().slip_free
 
+    def kept_rows(self) -> KeptRows | None:
+        """What motions have to keep, where `[traction] keep = true`. Raises InputError."""
+        if not self._keeps_traction:
+            return None
+        return self.load_model().kept_rows()
+
     def load_model(self) -> LoadModel:
         """What the loads depend on.
 
@@ -293,6 +299,7 @@ class Platform(ScenarioTable):
             drive=self.drive.drive() if self.drive else UNLIMITED,
             traction_margin=traction.margin,
             traction_finding=traction.report == "finding",
+            traction_kept=traction.keep is True,
         )
         model.check()
         return model
@@ -305,7 +312,12 @@ class Platform(ScenarioTable):
     def wheel_limit_values(self) -> WheelLimits:
         """Limits of three wheels, SI. Raises InputError for any other number of them."""
         each = self.limits_of_each_wheel()
-        return WheelLimits(*map(self._three, (each.speed, each.acceleration, each.jerk)))
+        return WheelLimits(
+            self._three(each.speed),
+            self._three(each.acceleration),
+            self._three(each.jerk),
+            SOFT_WHEEL_SHARE if self._keeps_traction else 1.0,
+        )
 
     def limits_of_each_wheel(self) -> LimitsOfEach:
         """Limits of the wheels, however many, SI."""
@@ -325,8 +337,16 @@ class Platform(ScenarioTable):
         """Limits of the stage, SI."""
         table = self.stage_limits
         return StageLimits(
-            table.travel_m, table.speed_m_s, table.acceleration_m_s2, table.jerk_m_s3
+            table.travel_m,
+            table.speed_m_s,
+            table.acceleration_m_s2,
+            table.jerk_m_s3,
+            SOFT_STAGE_SHARE if self._keeps_traction else 1.0,
         )
+
+    @property
+    def _keeps_traction(self) -> bool:
+        return self.traction is not None and self.traction.keep is True
 
     @property
     def head_S(self) -> Vec3:

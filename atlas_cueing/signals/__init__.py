@@ -2,9 +2,9 @@
 
 from .attitude_jump import attitude_jump
 from .felt import STANDARD_GRAVITY, direction_error, felt
-from .limits import StageLimits, WheelLimits
+from .limits import SOFT_STAGE_SHARE, SOFT_WHEEL_SHARE, StageLimits, WheelLimits
 from .load_columns import LoadColumns
-from .seams import Sink, Vehicle, WheelDrive
+from .seams import ContactRows, Sink, Vehicle, WheelDrive
 from .state_change import StateChange
 from .states import Cue, Motion, Tick, Timing, VehicleState, WheelSpeeds
 from .topics import (
@@ -28,9 +28,12 @@ __all__ = [
     "LIVE_TOPICS",
     "LOADS",
     "ROW",
+    "SOFT_STAGE_SHARE",
+    "SOFT_WHEEL_SHARE",
     "STANDARD_GRAVITY",
     "TIMING",
     "TOPICS",
+    "ContactRows",
     "Cue",
     "LoadColumns",
     "Motion",

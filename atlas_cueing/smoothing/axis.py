@@ -50,8 +50,15 @@ class Step:
 class AxisSmoothing:
     """Tracking of a speed and acceleration inside the limits, one tick at a time."""
 
-    def __init__(self, dt: float, speed: float, acceleration: float, jerk: float) -> None:
-        """Limits are magnitudes; dt in s.
+    def __init__(
+        self,
+        dt: float,
+        speed: float,
+        acceleration: float,
+        jerk: float,
+        stop_share: float | None = None,
+    ) -> None:
+        """Limits are magnitudes; dt in s; stop_share: of the acceleration, for a soft stop.
 
         Raises ValueError for limits that are not positive or leave no room between ticks.
 
@@ -68,6 +75,7 @@ class AxisSmoothing:
         self.speed, self.acceleration, self.jerk = (
             (1.0 - _ROUNDING) * x for x in (speed - bend, acceleration, jerk)
         )
+        self._soft = None if stop_share is None else stop_share * self.acceleration
         # below it every acceleration is fine
         self._cruise = self.speed - 0.5 * self.acceleration**2 / self.jerk
         self._generator, self._input, self._trajectory = (
@@ -100,8 +108,35 @@ class AxisSmoothing:
 
     def stopping(self, v: float, a: float) -> Step:
         """Give the step from (v, a) into the closed-form stop; it needs no generator."""
-        displacement, v, a = Stop.plan(v, a, self.acceleration, self.jerk).at(self.dt)
+        displacement, v, a = self.stop(v, a).at(self.dt)
         return Step(displacement, v, a, False)
+
+    def stop(self, v: float, a: float) -> Stop:
+        """Give the certified stop from (v, a): the shortest one, or the soft one."""
+        if self._soft is None:
+            return Stop.plan(v, a, self.acceleration, self.jerk)
+        return Stop.soft(v, a, self._soft, self.jerk)
+
+    def range_at(self, a0: float, v0: float) -> tuple[float, float]:
+        """Give the accelerations that one constant jerk may lead to from (v0, a0) in a tick.
+
+        Jerk, acceleration, and the speed that is left when the acceleration is brought to zero:
+        v0 + h (a0 + a) / 2 + a |a| / 2J within +-V.
+        """
+        h, mean = self.dt, v0 + 0.5 * self.dt * a0
+        turn = self.jerk * h
+        most = self._until_speed(self.speed - mean)
+        least = -self._until_speed(self.speed + mean)
+        return (
+            max(a0 - turn, -self.acceleration, least),
+            min(a0 + turn, self.acceleration, most),
+        )
+
+    def _until_speed(self, room: float) -> float:
+        """Give the a with h a / 2 + a |a| / 2J = room."""
+        half = 0.5 * self.dt
+        root = self.jerk * (sqrt(half * half + 2.0 * abs(room) / self.jerk) - half)
+        return root if room >= 0.0 else -root
 
     def _reach(self, v: float, a: float, v1: float, a1: float) -> Step | None:
         """Give the step of two halves to (v1, a1), if it is inside the limits."""

@@ -49,13 +49,25 @@ class SphereSmoothing:
     """Orientation, rate and acceleration of the sphere tick by tick, inside the wheels' limits."""
 
     def __init__(
-        self, dt: float, wheels_from_sphere: Mat3, sphere_from_wheels: Mat3, limits: WheelLimits
+        self,
+        dt: float,
+        wheels_from_sphere: Mat3,
+        sphere_from_wheels: Mat3,
+        limits: WheelLimits,
+        stop_share: float | None = None,
     ) -> None:
-        """Start at rest. dt in s; the maps are J^-1 (rad/s of wheels per rad/s of sphere) and J."""
+        """Start at rest; dt in s; stop_share as for `AxisSmoothing`.
+
+        The maps are J^-1 (rad/s of wheels per rad/s of the sphere) and J.
+        """
         self._dt = dt
         self._wheels_from_sphere, self._sphere_from_wheels = wheels_from_sphere, sphere_from_wheels
         one, two, three = zip(limits.speed, limits.acceleration, limits.jerk, strict=True)
-        self._axes = AxisSmoothing(dt, *one), AxisSmoothing(dt, *two), AxisSmoothing(dt, *three)
+        self._axes = (
+            AxisSmoothing(dt, *one, stop_share),
+            AxisSmoothing(dt, *two, stop_share),
+            AxisSmoothing(dt, *three, stop_share),
+        )
         self._braking, self._braking_jerk = (
             self._reserve(limits.acceleration),
             self._reserve(limits.jerk),
@@ -84,6 +96,12 @@ class SphereSmoothing:
 
         Raises PlanningError and stays where it is.
         """
+        (x, y, z), near = self.wanted(cue)
+        self.fly(x, y, z)
+        return x.met and y.met and z.met and near
+
+    def wanted(self, cue: Cue) -> tuple[tuple[Step, Step, Step], bool]:
+        """Give the wheels' steps towards the cue, and whether it is near. Raises PlanningError."""
         to_go = self._to_go(cue)
         angle = norm(to_go)
         u, a = self._demand(cue, to_go, angle)
@@ -91,17 +109,27 @@ class SphereSmoothing:
         x = axes[0].towards(speed[0], acceleration[0], u[0], a[0])
         y = axes[1].towards(speed[1], acceleration[1], u[1], a[1])
         z = axes[2].towards(speed[2], acceleration[2], u[2], a[2])
-        self._fly(x, y, z)
-        return x.met and y.met and z.met and angle <= _MET_ANGLE
+        return (x, y, z), angle <= _MET_ANGLE
 
     def stop(self) -> None:
         """Follow the certified stop for one tick."""
-        x, y, z = (
-            axis.stopping(v, a)
-            for axis, v, a in zip(self._axes, self._speed, self._acceleration, strict=True)
-        )
-        self._fly(x, y, z)
+        x, y, z = self.stopping()
+        self.fly(x, y, z)
         self._cue_speed = self._speed
+
+    def stopping(self) -> tuple[Step, Step, Step]:
+        """Give the wheels' steps into the certified stop."""
+        (one, two, three), v, a = self._axes, self._speed, self._acceleration
+        return (
+            one.stopping(v[0], a[0]),
+            two.stopping(v[1], a[1]),
+            three.stopping(v[2], a[2]),
+        )
+
+    @property
+    def axes(self) -> tuple[AxisSmoothing, AxisSmoothing, AxisSmoothing]:
+        """The wheels."""
+        return self._axes
 
     def _to_go(self, cue: Cue) -> Vec3:
         """Give the rotation vector (rad, W) still to go at the end of the tick at the cue's rate.
@@ -157,7 +185,7 @@ class SphereSmoothing:
                 spare = min(spare, (axis.speed + busy) / -d)
         return max(spare, 0.0)
 
-    def _fly(self, x: Step, y: Step, z: Step) -> None:
+    def fly(self, x: Step, y: Step, z: Step) -> None:
         """Take the steps of the three wheels and integrate the orientation (Eq. 16, 19, 20).
 
         This is the one place where the orientation is renormalised.

@@ -33,13 +33,20 @@ class RailAxis:
     """One axis of the stage: position, speed and acceleration, one tick at a time."""
 
     def __init__(
-        self, dt: float, travel: float, speed: float, acceleration: float, jerk: float
+        self,
+        dt: float,
+        travel: float,
+        speed: float,
+        acceleration: float,
+        jerk: float,
+        stop_share: float | None = None,
     ) -> None:
-        """Start at rest in the centre.
+        """Start at rest in the centre; stop_share as for `AxisSmoothing`.
 
         Raises ValueError for limits that leave no room to move between two ticks.
         """
-        self._axis = AxisSmoothing(dt, speed, acceleration, jerk)
+        self._axis = AxisSmoothing(dt, speed, acceleration, jerk, stop_share)
+        self._stop_acceleration = self._axis.acceleration * (stop_share or 1.0)
         self.travel = travel - acceleration * dt * dt / 8.0
         if not self.travel > 0.0:
             raise ValueError(
@@ -47,7 +54,7 @@ class RailAxis:
                 f" {travel} m"
             )
         self._braking, self._braking_jerk = (
-            _BRAKING_SHARE * self._axis.acceleration,
+            _BRAKING_SHARE * self._stop_acceleration,
             _BRAKING_SHARE * self._axis.jerk,
         )
         self.p = self.v = self.a = 0.0
@@ -59,16 +66,33 @@ class RailAxis:
 
     def step(self, p: float, v: float, a: float) -> bool:
         """Follow a cue for one tick; return whether it was given. Any input is safe."""
+        step, near = self.wanted(p, v, a)
+        self.fly(step)
+        return step.met and near
+
+    def wanted(self, p: float, v: float, a: float) -> tuple[Step, bool]:
+        """Give the certified step towards a cue, and whether it is near the cue."""
         to_go = p - (self.p + 0.5 * self._axis.dt * (self.v + v))
         try:
             v_target, a_target = self._demand(to_go, v, a)
             step = self._axis.towards(self.v, self.a, v_target, a_target)
-            if not self._is_certified(self.p + step.displacement, step):
-                step = self._axis.stopping(self.v, self.a)
+            if not self.is_certified(step):
+                step = self.stopping()
         except PlanningError:
-            step = self._axis.stopping(self.v, self.a)
+            step = self.stopping()
+        return step, abs(to_go) <= _MET_DISTANCE
+
+    def stopping(self) -> Step:
+        """Give the step into the certified stop."""
+        return self._axis.stopping(self.v, self.a)
+
+    def stop(self, step: Step) -> Stop:
+        """Give the certified stop from where a step leads."""
+        return self._axis.stop(step.v, step.a)
+
+    def fly(self, step: Step) -> None:
+        """Take a step."""
         self.p, self.v, self.a = self.p + step.displacement, step.v, step.a
-        return step.met and abs(to_go) <= _MET_DISTANCE
 
     def _demand(self, to_go: float, v: float, a: float) -> tuple[float, float]:
         """Give speed and acceleration asked for at the end of the tick."""
@@ -87,24 +111,34 @@ class RailAxis:
             return v_target, a_target
         return copysign(fastest, v_target), -slope * copysign(fastest, v_target)
 
-    def _is_certified(self, p: float, step: Step) -> bool:
-        """Whether the stop from p, where the step leads, stays inside the travel."""
+    def is_certified(self, step: Step) -> bool:
+        """Whether the stop from where the step leads stays inside the travel."""
+        p = self.p + step.displacement
         if (
-            abs(p) + stop_bound(step.v, step.a, self._axis.acceleration, self._axis.jerk)
+            abs(p) + stop_bound(step.v, step.a, self._stop_acceleration, self._axis.jerk)
             <= self.travel
         ):
             return True
-        low, high = Stop.plan(step.v, step.a, self._axis.acceleration, self._axis.jerk).span()
+        low, high = self._axis.stop(step.v, step.a).span()
         return -self.travel <= p + low and p + high <= self.travel
 
 
 class StageSmoothing:
     """Position, velocity and acceleration of the stage (W) tick by tick, inside its limits."""
 
-    def __init__(self, dt: float, limits: StageLimits) -> None:
-        """Start at rest in the centre; dt in s."""
+    def __init__(self, dt: float, limits: StageLimits, stop_share: float | None = None) -> None:
+        """Start at rest in the centre; dt in s; stop_share as for `AxisSmoothing`."""
         x, y, z = zip(limits.travel, limits.speed, limits.acceleration, limits.jerk, strict=True)
-        self._axes = RailAxis(dt, *x), RailAxis(dt, *y), RailAxis(dt, *z)
+        self._axes = (
+            RailAxis(dt, *x, stop_share),
+            RailAxis(dt, *y, stop_share),
+            RailAxis(dt, *z, stop_share),
+        )
+
+    @property
+    def axes(self) -> tuple[RailAxis, RailAxis, RailAxis]:
+        """The axes x, y, z of W."""
+        return self._axes
 
     def start(self, cue: Cue) -> None:
         """Begin at rest in the cue's position, as far as it lies in the travel."""

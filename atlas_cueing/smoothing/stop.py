@@ -45,6 +45,25 @@ class Stop:
             ((-jerk, max(a_s + peak, 0.0) / j_max), (0.0, max(hold, 0.0)), (jerk, peak / j_max)),
         )
 
+    @classmethod
+    def soft(cls, v: float, a: float, a_soft: float, j_max: float) -> "Stop":
+        """Plan the stop that brakes with a_soft only; an axis that brakes harder lets go first.
+
+        Letting go from |a| > a_soft keeps u, the speed left, which the hold at a_soft then takes in
+        u / a_soft. As with `plan`, what is left of it is the soft stop of every state on it.
+        """
+        s = 1.0 if v + a * abs(a) / (2.0 * j_max) >= 0.0 else -1.0
+        harder = -s * a - a_soft
+        if harder <= 0.0:
+            return cls.plan(v, a, a_soft, j_max)
+        jerk, left = s * j_max, abs(v + a * abs(a) / (2.0 * j_max))
+        return cls(
+            v,
+            a,
+            # it cannot turn round, so its first phase has no jerk, and no time (see `span`)
+            ((0.0, 0.0), (jerk, harder / j_max), (0.0, left / a_soft), (jerk, a_soft / j_max)),
+        )
+
     @property
     def duration(self) -> float:
         """Time until standstill, s."""
@@ -63,6 +82,24 @@ class Stop:
             if t <= 0.0:
                 return p, v, a
         return p, 0.0, 0.0
+
+    def bounds_from(self, t: float) -> tuple[float, float, float]:
+        """Lowest and highest acceleration, and largest speed either way, from time t on.
+
+        The acceleration is piecewise linear and ends at zero. The speed falls from t on, or from
+        where the acceleration has come to zero.
+        """
+        _, v, a = self.at(t)
+        low, high, begin, acceleration = min(a, 0.0), max(a, 0.0), 0.0, self.a
+        fastest = abs(v)
+        for jerk, duration in self.phases:
+            begin += duration
+            acceleration += jerk * duration
+            if jerk != 0.0:
+                fastest = max(fastest, abs(v + 0.5 * a * abs(a) / abs(jerk)))
+            if begin >= t:
+                low, high = min(low, acceleration), max(high, acceleration)
+        return low, high, fastest
 
     def span(self) -> tuple[float, float]:
         """Lowest and highest displacement on the way.

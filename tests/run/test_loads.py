@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from short_scenario import Load
 
+from atlas_cueing.errors import InputError
 from atlas_cueing.evaluation import RunColumns
 from atlas_cueing.loads import platform_loads
 from atlas_cueing.recording import read_log
@@ -80,6 +81,49 @@ def test_slip_is_a_remark_or_a_violation(tmp_path: Path, report: str) -> None:
     assert {finding.check for finding in review.findings} <= {"slip", "lift-off"}
     assert evaluate_log(tmp_path / "log.mcap", scenario.platform) == found
     assert review.metrics == found.metrics
+
+
+def test_traction_is_kept_where_the_platform_says_so(tmp_path: Path) -> None:
+    """The same flight that slips without; review finds it by its own arithmetic."""
+    scenario = load_scenario(ROLLS, [*SLIPPING, "platform.traction.keep=true"])
+    result = run_scenario(scenario, tmp_path / "log.mcap")
+    review = review_log(tmp_path / "log.mcap")
+    assert result.clean
+    assert review.clean
+    (line,) = result.evaluation.remarks
+    assert line.startswith("traction kept: 0.7")
+    assert any(note.startswith("traction kept: 0.7") for note in review.notes)
+    assert result.evaluation.metrics["traction_use_max"] <= 1.0 / 1.25
+    assert result.evaluation.metrics["lift_off_share"] == 0.0
+
+
+def test_a_motion_that_was_to_keep_traction_and_did_not_is_found(tmp_path: Path) -> None:
+    """A log that slips, judged as if its platform kept traction."""
+    scenario = load_scenario(ROLLS, [*SLIPPING])
+    run_scenario(scenario, tmp_path / "log.mcap")
+    kept = load_scenario(ROLLS, [*SLIPPING, "platform.traction.keep=true"])
+    found = evaluate_log(tmp_path / "log.mcap", kept.platform)
+    assert any("a wheel slips on" in line for line in found.violations)
+
+
+def test_a_first_pose_that_is_not_safe_at_rest_writes_nothing(tmp_path: Path) -> None:
+    """The cabin, of 220 kg, hangs 1.2 m off the centre."""
+    text = presets()["atlas-2.9m"].read_text()
+    (tmp_path / "p.toml").write_text(
+        text.replace("[0.0, 0.0, -0.1]", "[1.2, 0.0, -0.1]").replace(
+            "margin = 1.25", "keep = true\nmargin = 1.25"
+        )
+    )
+    flight = ROLLS.read_text().replace('preset = "atlas-2.9m"', 'file = "p.toml"')
+    (tmp_path / "s.toml").write_text(flight)
+    with pytest.raises(InputError, match=r"wheel\.\d: drive force .* N, allowed: at most"):
+        run_scenario(load_scenario(tmp_path / "s.toml", ["duration_s=1"]), tmp_path / "log.mcap")
+    assert not list(tmp_path.glob("log.mcap*"))
+
+
+def test_without_the_key_it_is_in_no_log(load: Load, tmp_path: Path) -> None:
+    log = run_scenario(load(), tmp_path / "log.mcap").log
+    assert b"keep" not in read_log(log).attachments["platform.toml"]
 
 
 def test_a_weak_motor_is_a_violation(tmp_path: Path) -> None:

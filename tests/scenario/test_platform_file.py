@@ -220,7 +220,7 @@ def test_two_wheels_are_not_enough() -> None:
 UNUSED = {
     f"drive.{key}"
     for key in ("torque_rms_n_m", "motor_inertia_kg_m2", "viscous_n_m_s", "coulomb_n_m")
-}
+} | {"traction.keep"}  # a preset's motions stay as they are
 
 
 @pytest.mark.parametrize("name", NAMES)

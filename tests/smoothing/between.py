@@ -16,8 +16,15 @@ SUBSTEPS = 10
 class Recorder(AxisSmoothing):
     """An Axis that keeps (displacement, v, a) at ten points of its last step, in rows."""
 
-    def __init__(self, dt: float, speed: float, acceleration: float, jerk: float) -> None:
-        super().__init__(dt, speed, acceleration, jerk)
+    def __init__(
+        self,
+        dt: float,
+        speed: float,
+        acceleration: float,
+        jerk: float,
+        stop_share: float | None = None,
+    ) -> None:
+        super().__init__(dt, speed, acceleration, jerk, stop_share)
         self.times = np.linspace(0.0, dt, SUBSTEPS + 1)
         self.path = np.zeros((SUBSTEPS + 1, 3))
         self._jerks = np.linalg.inv([[dt / 2.0, dt / 2.0], [3.0 * dt**2 / 8.0, dt**2 / 8.0]])

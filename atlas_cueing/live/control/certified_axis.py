@@ -33,8 +33,11 @@ class AxisLimits:
         acceleration: float,
         jerk: float,
         travel: float = inf,
+        stop_share: float = 1.0,
     ) -> None:
         """Set up the limits (m or rad, s) of the axis `name`, for ticks of dt (s).
+
+        stop_share: of the acceleration, that its stop brakes with; below 1 it is soft.
 
         Raises InputError for a tick or a limit that is not positive, or no travel between ticks.
         """
@@ -46,6 +49,7 @@ class AxisLimits:
         self.speed, self.acceleration, self.jerk = (
             x * (1.0 + ROUNDING) for x in (speed, acceleration, jerk)
         )
+        self.soft, self._braking = stop_share < 1.0, stop_share * self.acceleration
         # for J in speed and position: rounding there, and h - |D| / J > 0
         self.reach = self.jerk * (1.0 + ROUNDING)
         self.travel = travel
@@ -103,7 +107,9 @@ class AxisLimits:
         )
 
     def stop(self, p: float, v: float, a: float) -> "CertifiedStop":
-        """Return the shortest stop from position p, speed v and acceleration a."""
+        """Return the stop from position p, speed v and acceleration a: the shortest, or soft."""
+        if self.soft:
+            return SoftStop(p, v, a, self._braking, self.jerk)
         return CertifiedStop(p, v, a, self.acceleration, self.jerk)
 
     def _moment(self, h: float, m: float, d: float) -> float:
@@ -119,8 +125,14 @@ def six_axes(dt: float, wheels: WheelLimits, stage: StageLimits) -> list[AxisLim
     turns = zip("123", wheels.speed, wheels.acceleration, wheels.jerk, strict=True)
     rails = zip("xyz", stage.speed, stage.acceleration, stage.jerk, stage.travel, strict=True)
     return [
-        *(AxisLimits(f"wheel {name} ", dt, *limit) for name, *limit in turns),
-        *(AxisLimits(f"stage {name} ", dt, *limit) for name, *limit in rails),
+        *(
+            AxisLimits(f"wheel {name} ", dt, v, a, j, inf, wheels.stop_share)
+            for name, v, a, j in turns
+        ),
+        *(
+            AxisLimits(f"stage {name} ", dt, v, a, j, travel, stage.stop_share)
+            for name, v, a, j, travel in rails
+        ),
     ]
 
 
@@ -170,3 +182,35 @@ class CertifiedStop:
         )
         speed = 0.5 * (z * z - x * x) + z * (y + x)
         return self.end - self._jerk * left, self._jerk * speed, self._jerk * (x - z)
+
+
+class SoftStop(CertifiedStop):
+    """A stop that brakes with less than an axis may: one that brakes harder lets go to it first.
+
+    Letting go from |a| to the stop's own acceleration A takes (|a| - A) / J at the jerk J, and does
+    not turn the axis round; then it goes on as a `CertifiedStop` that begins braking with A.
+    """
+
+    def __init__(self, p: float, v: float, a: float, acceleration: float, jerk: float) -> None:
+        sign = copysign(1.0, v + 0.5 * a * abs(a) / jerk)
+        t = max((-sign * a - acceleration) / jerk, 0.0)
+        self._begin, self._letting, self._turn = (p, v, a), t, sign * jerk
+        if t > 0.0:
+            p = p + t * (v + t * (0.5 * a + t * self._turn / 6.0))
+            v, a = v + t * (a + 0.5 * t * self._turn), -sign * acceleration
+        super().__init__(p, v, a, acceleration, jerk)
+        if t > 0.0:
+            self.turning_point = self._begin[0]
+
+    @property
+    def duration(self) -> float:
+        """Time until it stands, s."""
+        return self._letting + max(2.0 * self._ramp + self._hold - self._since, 0.0)
+
+    def at(self, t: float) -> Vec3:
+        """Return position, speed and acceleration t >= 0 s after its start."""
+        if t >= self._letting:
+            return super().at(t - self._letting)
+        p, v, a = self._begin
+        j = self._turn
+        return p + t * (v + t * (0.5 * a + t * j / 6.0)), v + t * (a + 0.5 * t * j), a + t * j

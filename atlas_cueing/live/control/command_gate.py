@@ -59,7 +59,7 @@ class CommandGate:
         if tick is None:
             return self._guard.stop(time)
         angle = self._platform.wheel_angle if self._waiting is None else self._last.wheel_angle
-        return self._guard.check(command_of(tick, angle))
+        return self._guard.check(command_of(tick, angle), tick.motion.q_WS)
 
     def sent(self, tick: Tick | None, command: Command, vehicle: VehicleState) -> tuple[Tick, bool]:
         """Note the command that goes out; return its tick, and whether it is one of a stop."""

@@ -39,6 +39,11 @@ class GentleStop:
         Tick dt in s.
         """
         self._axes, self._states, self._dt = axes, list(states), dt
+        self._ticks, self._begun = 0, [0] * len(axes)  # tick at which each stop was planned
+        self._soft = any(axis.soft for axis in axes)
+        if self._soft:  # the one that keeps traction, the same as the guard's
+            self._stops = [axis.stop(*state) for axis, state in zip(axes, states, strict=True)]
+            return
         stops = [_softest(axis, state) for axis, state in zip(axes, states, strict=True)]
         last = max(stop.duration for _, stop in stops[:3])
         wheels = [
@@ -46,8 +51,6 @@ class GentleStop:
             for axis, state, (share, _) in zip(axes[:3], states[:3], stops[:3], strict=True)
         ]
         self._stops = [*wheels, *(stop for _, stop in stops[3:])]
-        self._ticks = 0
-        self._begun = [0] * len(self._stops)  # tick at which each stop was planned
 
     def next(self) -> list[Vec3]:
         """Return position, speed and acceleration of each axis one tick on."""
@@ -71,7 +74,7 @@ class GentleStop:
         """
         limits = self._axes[k]
         state = self._stops[k].at((self._ticks - self._begun[k]) * self._dt)
-        if not _is_certified(limits, state):
+        if not self._soft and not _is_certified(limits, state):
             self._stops[k] = _stop(limits, self._states[k], SHARES[-1])
             self._begun[k] = self._ticks - 1
             state = self._stops[k].at(self._dt)

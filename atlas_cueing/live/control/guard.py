@@ -15,6 +15,9 @@ fixes how long that is, m where it lies, and 2 (p1 - c) is the jerk's second mom
 of the tick. As such a motion goes through all outputs, their differences keep J to any order; that
 they keep A and V as well is required of each pair.
 
+Where the platform keeps traction, friction, normal forces and torques are checked as well
+(`contact_check`), and the stop is the soft one that keeps them: smoothing has certified it.
+
 The angle of a wheel is checked as the place of a rail is, without travel.
 
 Then its stop: speed, and on the stage travel, hold from there to standstill, in continuous time. So
@@ -28,10 +31,11 @@ from collections.abc import Iterable, Iterator
 from math import inf, ulp
 
 from ...errors import InputError
-from ...rotation import ZERO
+from ...rotation import IDENTITY, ZERO, Quat
 from ...signals import StageLimits, WheelLimits
 from .certified_axis import AxisLimits, CertifiedStop, Checks
 from .command import Command, axes_of, command_from
+from .contact_check import ContactCheck
 
 _EARLY = 1e-6  # share of a tick by which a command may be early, beside the rounding of its time
 # s; a command may come so much late; after that the drives were left alone too long (assumed)
@@ -47,23 +51,31 @@ class Guard:
     differences flatter. Numbers that are not finite are inside no limits.
     """
 
-    def __init__(self, dt: float, wheel_limits: WheelLimits, stage_limits: StageLimits) -> None:
+    def __init__(
+        self,
+        dt: float,
+        wheel_limits: WheelLimits,
+        stage_limits: StageLimits,
+        contacts: ContactCheck | None = None,
+    ) -> None:
         """Start at rest in the centre; tick dt in s, limits in SI units.
+
+        contacts: checks traction and torque, where the platform keeps them.
 
         Raises InputError for a tick or limits that are not positive, or leave no travel between two
         ticks.
         """
         wheels, stage = wheel_limits, stage_limits
-        self._dt = dt
+        self._dt, self._contacts = dt, contacts
         self._wheels = [
-            AxisLimits(f"wheel {name} ", dt, *limit)
-            for name, *limit in zip(
+            AxisLimits(f"wheel {name} ", dt, v, a, j, inf, wheels.stop_share)
+            for name, v, a, j in zip(
                 "123", wheels.speed, wheels.acceleration, wheels.jerk, strict=True
             )
         ]
         self._rails = [
-            _rail(f"stage {name} ", dt, *limit)
-            for name, *limit in zip(
+            _rail(f"stage {name} ", dt, v, a, j, travel, stage.stop_share)
+            for name, v, a, j, travel in zip(
                 "xyz", stage.speed, stage.acceleration, stage.jerk, stage.travel, strict=True
             )
         ]
@@ -83,14 +95,16 @@ class Guard:
             raise InputError(f"start from a standstill inside the travel: {breach}")
         self._begin(command)
 
-    def check(self, command: Command) -> Command:
+    def check(self, command: Command, q_WS: Quat = IDENTITY) -> Command:
         """Return the command if it is fit to follow the last output.
+
+        q_WS: orientation of the cabin that belongs to it, for traction.
 
         Otherwise, and from then on, return the next tick of the stop.
         """
         if not self.stopping:
             try:
-                breach = breach_of(self._checks(command))
+                breach = breach_of(self._checks(command, q_WS))
                 if not breach:
                     self._put_out(command)
                     return command
@@ -148,7 +162,7 @@ class Guard:
         ]
         self._reason = reason
 
-    def _checks(self, command: Command) -> Iterator[tuple[str, Checks]]:
+    def _checks(self, command: Command, q_WS: Quat) -> Iterator[tuple[str, Checks]]:
         """Yield all that has to hold for the command to follow the last output, axis by axis."""
         last = self._last
         yield "", (("time", command.time, self._earliest, self._latest),)
@@ -157,13 +171,21 @@ class Guard:
         for axis, (p0, v0, a0), (p, v, a) in states:
             yield axis.name, axis.checks(self._dt, v0, a0, v, a)
             yield axis.name, axis.place_checks(self._dt, p0, v0, a0, p, v, a)
+        if self._contacts is not None:
+            yield from self._contacts.checks(command, q_WS)
 
 
 def _rail(
-    name: str, dt: float, speed: float, acceleration: float, jerk: float, travel: float
+    name: str,
+    dt: float,
+    speed: float,
+    acceleration: float,
+    jerk: float,
+    travel: float,
+    stop_share: float,
 ) -> AxisLimits:
     """Return the limits of an axis of the stage, which has a travel left between two ticks."""
-    rail = AxisLimits(name, dt, speed, acceleration, jerk, travel)
+    rail = AxisLimits(name, dt, speed, acceleration, jerk, travel, stop_share)
     unused = acceleration * dt * dt / 8.0
     if not unused < travel < inf:
         raise InputError(f"{name}travel {travel:g} m, allowed: {unused:.3g} < value < inf")

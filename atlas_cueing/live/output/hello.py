@@ -81,4 +81,8 @@ def limits_hash(wheels: WheelLimits, stage: StageLimits) -> bytes:
         *(*wheels.speed, *wheels.acceleration, *wheels.jerk),
         *(*stage.travel, *stage.speed, *stage.acceleration, *stage.jerk),
     )
-    return blake2s(pack("<21d", *numbers), digest_size=HASH_SIZE).digest()
+    soft = (wheels.stop_share, stage.stop_share)
+    packed = pack("<21d", *numbers)
+    if soft != (1.0, 1.0):  # drives with another stop are not these
+        packed += pack("<2d", *soft)
+    return blake2s(packed, digest_size=HASH_SIZE).digest()

@@ -20,7 +20,8 @@ def check_contact_loads(run: RecordedRun) -> list[Finding]:
     """Check the loads of a run on a platform with masses.
 
     Logged ones are those that the motion needs; torque, motor speed and wheel load keep the limits
-    that the platform names; and where it wants them as findings, no wheel slips or lifts off.
+    that the platform names; and where it wants them as findings, no wheel slips or lifts off;
+    where it keeps traction, none uses more than the margin leaves.
     """
     if not run.platform.has_loads:
         return []
@@ -30,7 +31,11 @@ def check_contact_loads(run: RecordedRun) -> list[Finding]:
 
 def traction_notes(run: RecordedRun) -> tuple[str, ...]:
     """Slip and lift-off in words, where the platform does not want them as findings."""
-    if not run.platform.has_loads or _wants_findings(run):
+    if not run.platform.has_loads:
+        return ()
+    if _is_kept(run):
+        return _kept_note(run)
+    if _wants_findings(run):
         return ()
     return tuple(str(finding) for finding in _traction(run))
 
@@ -51,7 +56,28 @@ def logged_loads(run: RecordedRun) -> dict[str, Array]:
 
 def _wants_findings(run: RecordedRun) -> bool:
     traction = run.platform.traction
-    return traction is not None and traction.report == "finding"
+    return traction is not None and (traction.report == "finding" or traction.keep is True)
+
+
+def _is_kept(run: RecordedRun) -> bool:
+    return run.platform.traction is not None and run.platform.traction.keep is True
+
+
+def _most_use(run: RecordedRun) -> float:
+    """The use that a motion may have: all of the friction, or what the kept margin leaves."""
+    traction = run.platform.traction
+    return 1.0 / traction.margin if traction is not None and traction.keep else 1.0
+
+
+def _kept_note(run: RecordedRun) -> tuple[str, ...]:
+    """Say that traction was kept, by the loads derived here; nothing where it was not."""
+    if not len(run.flight.time) or _traction(run):
+        return ()
+    again, most = loads_again(run), _most_use(run)
+    return (
+        f"traction kept: {float(again.use.max()):.3f} of the friction in use at most, {most:.3f}"
+        f" allowed; normal force {float(again.normal.min()):.6g} N at the least",
+    )
 
 
 def _mismatch(run: RecordedRun) -> list[Finding]:
@@ -112,9 +138,9 @@ def _traction(run: RecordedRun) -> list[Finding]:
     uses, normals = ([f"/loads {name}" for name in ("use1", "use2", "use3")],
                      [f"/loads n{k}_n" for k in (1, 2, 3)])  # fmt: skip
     touching = np.where(loads["n"] > 0.0, loads["use"], 0.0)
-    pulls = np.maximum(-loads["n"], 0.0)
+    pulls, fair = np.maximum(-loads["n"], 0.0), _fair(_most_use(run))
     return [
-        *exceeding("slip", uses, time, touching, _fair(1.0), "", quantity="traction use"),
+        *exceeding("slip", uses, time, touching, fair, "", quantity="traction use"),
         *exceeding("lift-off", normals, time, pulls, 0.0, "N", quantity="pull needed"),
     ]
 
