@@ -119,7 +119,7 @@ class AttitudeLoop:
             self.corrections[i].step(speeds[i], schedule[i], h)
 
     def _find_slip(self, rate_S: Vec3, omega: Vec3) -> None:
-        """Slip rho = J^-1 R w_gyro - omega: how much slower each wheel turns than the sphere asks."""
+        """Slip rho = J^-1 R w_gyro - omega: each wheel turns that much too slowly."""
         rate_W = rotate(self.estimate_WS, rate_S)
         rolled = apply(self._wheels_from_sphere, rate_W)
         self.residual = (rolled[0] - omega[0], rolled[1] - omega[1], rolled[2] - omega[2])

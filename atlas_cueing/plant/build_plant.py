@@ -18,6 +18,7 @@ from ..scenario.load_tables import DriveTable
 from ..scenario.plant_table import PlantTable
 from ..scenario.platform_file import WheelTable
 from .passive_contacts import PassiveContact, PassiveContacts
+from .plant_parts import PlantBody, PlantServo, PlantWheel
 from .rolling_contact import Friction, RollingContact
 from .sphere_on_wheels import (
     GRAVITY,
@@ -25,9 +26,6 @@ from .sphere_on_wheels import (
     OMEGA,
     SIZE,
     D,
-    PlantBody,
-    PlantServo,
-    PlantWheel,
     Q,
     SphereOnWheels,
     V,

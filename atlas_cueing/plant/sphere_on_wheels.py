@@ -14,14 +14,13 @@ against them in the end is the error of integration.
 # mypyc: runs every tick
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from math import pi, sqrt
+from math import sqrt
 from typing import Final
 
-from ..rotation import Mat3, Quat, Vec3, apply, cross, dot, rotate
+from ..rotation import Quat, Vec3, apply, cross, dot, rotate
 from .drive_command import DriveCommand, integral, slope, value
 from .passive_contacts import PassiveContacts
-from .rolling_contact import RollingContact
+from .plant_parts import PlantBody, PlantServo, PlantWheel
 
 GRAVITY: Final = 9.80665
 _ROUNDS: Final = 0.05  # rad/s: below it Coulomb's loss at an axle fades to nothing
@@ -31,47 +30,6 @@ _MOST_PIECES: Final = 64
 # places in the state: q_WS, w_S, d, d', theta_c - theta, omega, z, then work:
 Q, W, D, V, LAG, OMEGA, Z, WORK = 0, 4, 7, 10, 13, 16, 19, 22
 SIZE = 27  # of motors, stage, friction, damping and losses; |motors| + |stage|
-
-
-@dataclass(frozen=True, slots=True)
-class PlantBody:
-    """Mass (kg), centre of mass from the sphere centre (m), inertia about it, its inverse; S."""
-
-    mass: float
-    com_S: Vec3
-    inertia_S: Mat3
-    inverse_S: Mat3
-
-
-@dataclass(frozen=True, slots=True)
-class PlantServo:
-    """Of each wheel: k_p N m s, k_i N m, torque limit N m, inertia kg m^2, losses N m s and N m."""
-
-    speed_gain: float
-    angle_gain: float
-    limit: float
-    inertia: float
-    viscous: float
-    coulomb: float
-
-
-@dataclass(frozen=True, slots=True)
-class PlantWheel:
-    """A wheel by its rows of rollers: one contact, or two that take turns.
-
-    rows: contacts of row +1 and -1, or the only one. pitch: angle of the wheel from one roller of a
-    row to the next, rad.
-    """
-
-    rows: tuple[RollingContact, ...]
-    pitch: float = 2.0 * pi
-
-    def touching(self, angle: float) -> RollingContact:
-        """The row that touches with the wheel at `angle` (rad)."""
-        if len(self.rows) == 1:
-            return self.rows[0]
-        turned = angle / self.pitch
-        return self.rows[0 if turned - turned // 1.0 < 0.5 else 1]
 
 
 class SphereOnWheels:
