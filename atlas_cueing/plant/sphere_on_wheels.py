@@ -24,7 +24,7 @@ from .plant_parts import PlantBody, PlantServo, PlantWheel
 
 GRAVITY: Final = 9.80665
 _ROUNDS: Final = 0.05  # rad/s: below it Coulomb's loss at an axle fades to nothing
-_STIFFEST: Final = 2.0  # of the fastest rate and a step; more is divided (Runge-Kutta bears 2.78)
+_STIFFEST: Final = 2.0  # rate times step; more is divided (Runge-Kutta is stable up to 2.78)
 _MOST_PIECES: Final = 64
 
 # places in the state: q_WS, w_S, d, d', theta_c - theta, omega, z, then work:
@@ -52,7 +52,7 @@ class SphereOnWheels:
         self.angle = [0.0, 0.0, 0.0]  # commanded, rad
         self._touching = [wheel.touching(0.0) for wheel in self._wheels]
         self._height = 0.0  # m, of the stage, from the start
-        self._natural: Final[float] = sqrt(
+        self._natural: Final[float] = 2.0 * sqrt(  # twice: it rings
             (passive.stiffness + sum(wheel.rows[0].stiffness for wheel in wheels)) / body.mass
         )
         self.row_work = 0.0  # J: by springs when another row of rollers takes over

@@ -74,6 +74,6 @@ class PlantTable(ScenarioTable):
         default=0.5, description="assumed: the sphere is not corrected faster than that"
     )
     step_s: Annotated[float, number(1e-6, 0.01)] = Field(
-        default=2e-3, description="numerical; half of it changes no figure that is shown"
+        default=1e-3, description="numerical; half of it changes no figure that is shown"
     )
     seed: Annotated[int, whole(0, 2**31)] = Field(default=0, description="of the noise")
