@@ -1,10 +1,14 @@
 """Words of the sources in the C code that mypyc makes of them."""
 
 import ast
+import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from documented import add_docstrings
+
+PACKAGE = Path(__file__).parents[1] / "atlas_cueing"
 
 SOURCE = '''
 def turn(q):
@@ -58,3 +62,20 @@ def test_words_stand_behind_their_signatures(
     ]
     assert len(written) == 4
     assert written[2] == "NULL"
+
+
+def docstrings() -> Iterator[tuple[str, str]]:
+    """Every docstring of the package, with where it stands."""
+    for file in sorted(PACKAGE.rglob("*.py")):
+        for node in ast.walk(ast.parse(file.read_text())):
+            if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
+                name = f"{file.relative_to(PACKAGE)}: {getattr(node, 'name', '')}"
+                yield name, ast.get_docstring(node) or "(none is needed)"
+
+
+def test_no_docstring_is_a_place_for_one() -> None:
+    """A linter takes "TO WRITE." for a sentence."""
+    for place, text in docstrings():
+        begins = text.split("\n")[0]
+        assert not re.match(r"(to write|todo|fixme|set up\.|of |those )", begins.lower()), place
+        assert begins.startswith("`") or len(begins.split()) > 1, place

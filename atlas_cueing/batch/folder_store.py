@@ -29,7 +29,7 @@ class FolderStore:
 
     @property
     def place(self) -> str:
-        """Absolute path."""
+        """The absolute path of the folder."""
         return str(self._folder.resolve())
 
     @property

@@ -42,7 +42,7 @@ class RemoteStore:
 
     @property
     def place(self) -> str:
-        """The URL."""
+        """The URL that was asked for."""
         return self._url
 
     @property
@@ -158,7 +158,7 @@ class RemoteStore:
         return scratch / name
 
     def _upload(self, workdir: Path, names: Iterable[str]) -> bytes:
-        """In the child: upload, and tell what went wrong."""
+        """Upload, in the child, and tell what went wrong."""
         try:
             for name in names:
                 with self._telling(), self._moved(name) as part:

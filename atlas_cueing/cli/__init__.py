@@ -9,9 +9,11 @@ import errno
 import gc
 import logging
 import os
+import signal
 import sys
 import traceback
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated
 
@@ -123,10 +125,22 @@ def _options(
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command with `arguments` (by default the process's own); return the exit status."""
+    """Run the command with `arguments` (by default the process's own); return the exit status.
+
+    Signals that come after the process's own command has ended do not change its status.
+    """
     _speed_up_start()
     with safe_streams():
-        return _status(list(sys.argv[1:] if arguments is None else arguments))
+        status = _status(list(sys.argv[1:] if arguments is None else arguments))
+        if arguments is None:
+            _ignore_signals()
+        return status
+
+
+def _ignore_signals() -> None:
+    with suppress(ValueError):  # not the main thread: signals are not ours
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, signal.SIG_IGN)
 
 
 def _status(texts: list[str]) -> int:

@@ -34,3 +34,13 @@ Force: TypeAlias = Annotated[
 AsJson: TypeAlias = Annotated[
     bool, typer.Option("--json", help="Print one JSON object and nothing else.")
 ]
+Port: TypeAlias = Annotated[
+    int,
+    typer.Option(
+        "--port",
+        help="Port of --view on this machine; 0 for any free one.",
+        metavar="PORT",
+        min=0,
+        max=65535,
+    ),
+]

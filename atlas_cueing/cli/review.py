@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import InputError, LogError
-from .options import AsJson
+from .options import AsJson, Port
 from .text import FIGURES
 
 if TYPE_CHECKING:
@@ -49,10 +49,7 @@ def review_command(
         bool,
         typer.Option("--view", help="Show the flight in a browser until Ctrl-C, with a play bar."),
     ] = False,
-    port: Annotated[
-        int,
-        typer.Option("--port", min=0, max=65535, help="Port of --view on this machine; 0: any."),
-    ] = 8080,
+    port: Port = 8080,
     as_json: AsJson = False,
     force: Annotated[
         bool, typer.Option("--force", help="Replace pages of earlier reviews.")

@@ -83,4 +83,5 @@ METHOD = Method(
         *slow_turn("align", 90.0),
         HOLD,
     ),
+    fixed=("bandwidth",),
 )

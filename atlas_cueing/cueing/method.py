@@ -110,6 +110,7 @@ class Method:
     summary: one line on what the method does.
     defaults: its parameters, as they are where a file is silent.
     parameters: the keys that a user may set.
+    fixed: fields of the defaults that have no key, for nobody is to choose them.
     stage: defaults of the stage beside it, which has the keys of `stage_parameters`.
     files: of a method that is no part of this package, what goes into logs, by name.
     """
@@ -120,6 +121,7 @@ class Method:
     parameters: tuple[Parameter, ...]
     stage: StageParameters = field(default_factory=StageParameters)
     files: Mapping[str, bytes] = field(default_factory=dict)
+    fixed: tuple[str, ...] = ()
 
     @property
     def needs_flight(self) -> bool:

@@ -49,7 +49,7 @@ CONTACT_LOADS = (
         N,
         "Further force straight down with which no wheel slips; negative: a reserve.",
         Shown.RUN_HEADLINE | Shown.BATCH,
-        Phrase("preload needed", "{:+.2f} kN straight down", 1e-3),
+        Phrase("preload needed", "{:+z.2f} kN straight down", 1e-3),
     ),
     Metric(
         "wheel_torque_max",
@@ -78,7 +78,7 @@ CONTACT_LOADS = (
         W,
         "Largest power of all wheels together that comes back.",
         Shown.RUN_HEADLINE,
-        Phrase("power", "{:.2f} kW back", 1e-3),
+        Phrase("power", "{:z.2f} kW back", 1e-3),
     ),
     Metric(
         "energy",

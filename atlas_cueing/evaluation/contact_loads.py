@@ -69,7 +69,7 @@ class ContactLoads:
         self._speed = float(np.maximum(self._speed, np.abs(loads.speed).max()))
         self._torque_squares += np.einsum("ij,ij->j", loads.torque, loads.torque)
         together = loads.power.sum(axis=1)
-        self._peak = np.maximum(self._peak, [together.max(), -together.min()])
+        self._peak = np.maximum(self._peak, [together.max(), 0.0 - together.min()])
         out, back = (np.maximum(power, 0.0).sum(axis=1) for power in (loads.power, -loads.power))
         t, *flows = self._tail.joined(time, out, back, self._supply(loads.power))
         for k, flow in enumerate(flows):

@@ -80,7 +80,7 @@ def _turns(axis: str, letter: str) -> Metric:
         NUMBER,
         f"Net turns of the cabin about its own {letter}, with sign.",
         Shown.RUN_HEADLINE,
-        Phrase("net turns", f"{axis} {{:+.2f}}"),
+        Phrase("net turns", f"{axis} {{:+z.2f}}"),
     )
 
 

@@ -7,12 +7,14 @@ import traceback
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
+from mmap import mmap
 from time import monotonic
 from typing import NoReturn, TypeAlias
 
 Left: TypeAlias = Callable[[], bool]
 """Returns whether the parent has ended or waits in `finish`: nothing more will come from it."""
 
+HANGS_S = 5.0  # s without a call of Left after which a process counts as hanging (assumed)
 _FAILED = 70  # exit status after an exception: EX_SOFTWARE of sysexits.h
 # a terminal sends them to all its processes; the loop decides what they mean
 _IGNORED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -45,13 +47,16 @@ class ChildProcess:
         returned True.
         """
         self._channel, theirs = socket.socketpair()
+        # when it last called Left, s; shared, and written at once: `struct` would write it by bytes
+        self._beat = memoryview(mmap(-1, 8)).cast("d")
+        self._beat[0] = monotonic()
         self._ended: ProcessExit | None = None
         parent = os.getpid()
         mask = signal.pthread_sigmask(signal.SIG_BLOCK, _IGNORED)
         self.pid = os.fork()
         if self.pid == 0:
             self._channel.close()
-            _run(function, theirs, parent, mask)
+            _run(function, theirs, parent, mask, self._beat)
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         theirs.close()
 
@@ -62,6 +67,11 @@ class ChildProcess:
             self._ended is None
             and os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None
         )
+
+    @property
+    def answers(self) -> bool:
+        """Whether it runs, and has called Left in the last HANGS_S; does not wait."""
+        return monotonic() - self._beat[0] < HANGS_S and self.alive
 
     def finish(self, timeout: float) -> ProcessExit:
         """Wait for its end, at most `timeout` s; then it is killed.
@@ -93,7 +103,11 @@ class ChildProcess:
 
 
 def _run(
-    function: Callable[[Left], bytes], channel: socket.socket, parent: int, mask: Iterable[int]
+    function: Callable[[Left], bytes],
+    channel: socket.socket,
+    parent: int,
+    mask: Iterable[int],
+    beat: "memoryview[float]",
 ) -> NoReturn:
     """Run the function in the forked process, and end it without the parent's own clean-up."""
     status = _FAILED
@@ -102,7 +116,7 @@ def _run(
             signal.signal(number, signal.SIG_IGN)
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         channel.setblocking(False)
-        answer = function(lambda: _left(channel, parent))
+        answer = function(lambda: _left(channel, parent, beat))
         status = 0
         with suppress(OSError):  # the parent has ended
             channel.sendall(answer)
@@ -112,11 +126,12 @@ def _run(
         os._exit(status)
 
 
-def _left(channel: socket.socket, parent: int) -> bool:
-    """Return whether the parent has left, see Left.
+def _left(channel: socket.socket, parent: int, beat: "memoryview[float]") -> bool:
+    """Return whether the parent has left, see Left; it learns that this process does not hang.
 
     The parent's process id is looked at, too: a sibling may hold a copy of its end of the channel.
     """
+    beat[0] = monotonic()
     if os.getppid() != parent:
         return True
     try:

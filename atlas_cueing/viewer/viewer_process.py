@@ -93,6 +93,11 @@ class ViewerProcess:
         """Whether it serves."""
         return self._process.alive
 
+    @property
+    def answers(self) -> bool:
+        """Whether it serves, and does not hang (`ChildProcess.answers`)."""
+        return self._process.answers
+
     def close(self) -> None:
         """End the process, by force if it is stopped or busy."""
         self._process.finish(_CLOSING)
@@ -121,6 +126,7 @@ def _show(
     except AtlasError as error:
         answer.send(str(error))
         return b""
+    left()  # it may have taken long: no sign that it hangs
     answer.send(port)
     while not left():
         page.take(reader.newest())

@@ -29,7 +29,7 @@ LARGEST_CONDITION_NUMBER = 1e6
 
 @dataclass(frozen=True, slots=True)
 class OmniWheel:
-    """One wheel.
+    """One omnidirectional wheel.
 
     contact: unit vector from the sphere centre, W; drive: unit vector tangent to the sphere, W;
     radius in m.

@@ -15,16 +15,17 @@ from atlas_cueing.signals import VehicleState
 
 from .test_perceptual import mirrored
 from .vehicles import LEVEL, level_turn, manoeuvring, standing, up_in_cabin, wild
-from .wild_rides import CueBound, ride
+from .wild_rides import CueBound, ride, wild_states
 
-ORGANS = HedgeParameters(
-    replace(
-        HedgeParameters().committee, loss=replace(HedgeParameters().committee.loss, judge="organs")
+ORGANS, OBSERVER = (
+    HedgeParameters(
+        replace(
+            HedgeParameters().committee, loss=replace(HedgeParameters().committee.loss, judge=judge)
+        )
     )
+    for judge in ("organs", "observer")
 )
-BOTH = pytest.mark.parametrize(
-    "parameters", [HedgeParameters(), ORGANS], ids=["observer", "organs"]
-)
+BOTH = pytest.mark.parametrize("parameters", [OBSERVER, ORGANS], ids=["observer", "organs"])
 
 
 def make(dt: float, parameters: HedgeParameters | None = None) -> Committee:
@@ -75,6 +76,19 @@ def test_no_more_is_felt_than_the_bound_for_any_vehicle(
         for _ in range((20, 1, 5, 2)[i % 4]):
             bound.step(VehicleState(0.0, q_NB, w_B, f_B))  # type: ignore[arg-type]
     assert bound.exceeded == 0
+
+
+@BOTH
+def test_to_come_to_the_members_nothing_is_felt_but_what_they_feel(
+    parameters: HedgeParameters,
+) -> None:
+    """With next to no bound of the draw's own, each member counts by its share."""
+    own = replace(parameters.committee.turn, felt=1e-6, rate_gain=0.0, error_gain=0.0)
+    bound = CueBound(HedgeParameters(replace(parameters.committee, turn=own)), 1.0 / 60.0)
+    for vehicle in wild_states(3, 2000, 1.0 / 60.0):
+        bound.step(vehicle)
+    assert bound.exceeded == 0
+    assert bound.fullest > 0.9
 
 
 @BOTH

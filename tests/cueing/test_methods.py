@@ -22,12 +22,8 @@ PARAMETERS = [
     ),
     *((parameter, method.stage) for method in METHODS.values() for parameter in STAGE),
 ]
-FIXED = {
-    "blend": {"bandwidth"},
-    "preview": {"rounds"},
-    "stage": {"mpc.blocks", "mpc.fade", "mpc.excess", "mpc.doubt"},
-}
-"""Fields that a user is not to choose."""
+FIXED_OF_STAGE = {"mpc.blocks", "mpc.fade", "mpc.excess", "mpc.doubt"}
+"""Fields of the stage that a user is not to choose."""
 
 
 def declared() -> set[str]:
@@ -68,14 +64,14 @@ def test_preview_alone_needs_the_whole_flight() -> None:
 @EACH
 def test_every_field_has_a_key_or_is_fixed(method: Method) -> None:
     """A parameter without a key could not be chosen, and nothing else would say so."""
-    assert {p.field for p in method.parameters} == leaves(method.defaults) - FIXED.get(
-        method.name, set()
-    )
+    keys = {p.field for p in method.parameters}
+    assert keys | set(method.fixed) == leaves(method.defaults)
+    assert not keys & set(method.fixed)
 
 
 def test_every_field_of_the_stage_has_a_key_or_is_fixed() -> None:
     keyed = {p.field for p in (FORCE_GAIN, *STAGE)}
-    assert keyed == leaves(StageParameters()) - FIXED["stage"]
+    assert keyed == leaves(StageParameters()) - FIXED_OF_STAGE
 
 
 @EACH

@@ -75,8 +75,8 @@ class Overheard:
 class CueBound:
     """Rides `hedge` and counts the ticks at which more is felt of its cue than may be.
 
-    Felt by canals of the test's own, of the cue's rate less the vehicle's. Allowed: what the most
-    of the members' riders feels, by the same canals, and the bound of the draw.
+    Felt by canals of the test's own, of the cue's rate less the vehicle's. Allowed: what the
+    members' riders feel by the same canals, each by the member's share, and the bound of the draw.
     """
 
     def __init__(self, parameters: HedgeParameters, dt: float) -> None:
@@ -92,13 +92,14 @@ class CueBound:
         w_S = flip(vehicle.w_NB_B)
         q_WS, w_W = self._committee.step(vehicle)
         felt = norm(self._own.feel(subtract(rotate(conjugate(q_WS), w_W), w_S)))
-        most = max(
+        theirs = [
             norm(canals.feel(subtract(rotate(conjugate(member.cue[0]), member.cue[1]), w_S)))
             for member, canals in zip(self._members, self._canals, strict=True)
-        )
+        ]
+        mean = sum(p * y for p, y in zip(self._committee.shares, theirs, strict=True))
         turn = self._turn
         more = turn.felt + turn.rate_gain * norm(w_S) + turn.error_gain * pi
-        allowed = most + min(more, turn.extra)
+        allowed = mean + min(more, turn.extra)
         self.fullest = max(self.fullest, felt / allowed)
         self.exceeded += felt > allowed * (1.0 + 1e-9) + 1e-9
         return Cue(vehicle.time, q_WS, w_W, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))

@@ -81,7 +81,7 @@ def test_a_fault_is_found_with_its_reason(tmp_path: Path) -> None:
     found = review_log(recorded(rig, tmp_path / "run.mcap"))
     faults = [finding for finding in found.findings if finding.check == "fault"]
     assert len(faults) == 2
-    assert "a set point came 18.0 ms too late for the drives" in str(faults[0])
+    assert "a tick came 18.0 ms too late for its slot" in str(faults[0])
     assert "stopped" in str(faults[1])
     # the stop keeps every limit
     assert {finding.check for finding in found.findings} == {"fault", "result"}

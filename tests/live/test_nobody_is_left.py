@@ -62,6 +62,9 @@ def test_late_on_the_way_home_it_stops_and_tries_again() -> None:
     rig.fly(1.0)
     rig.tick(lateness=0.025)
     assert rig.state is State.FAULT_STOPPING
+    rig.until(State.STOPPED, 3.0)
+    rig.fly(HOME_AFTER - 0.1)
+    assert rig.state is State.STOPPED, "the punctual seconds before do not count"
     rig.until(lambda: rig.controller.over, 30.0)
     assert (rig.state, rig.controller.outcome.faults) == (State.PARKED, 2)
 

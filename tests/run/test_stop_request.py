@@ -68,6 +68,19 @@ def test_handlers_come_back_after_an_error() -> None:
     assert [signal.getsignal(number) for number in NUMBERS] == before
 
 
+def test_a_signal_after_the_result_changes_nothing() -> None:
+    before = [signal.getsignal(number) for number in NUMBERS]
+    try:
+        with StopRequest(interrupt=False) as stop:
+            stop.finish()
+            signal.raise_signal(signal.SIGTERM)
+        signal.raise_signal(signal.SIGTERM)
+        assert stop.count == 0
+    finally:
+        for number, handler in zip((*NUMBERS, signal.SIGHUP), (*before, None), strict=True):
+            signal.signal(number, handler or signal.SIG_DFL)
+
+
 def test_another_thread_counts_nothing() -> None:
     seen = []
 

@@ -9,6 +9,7 @@ import pytest
 from live.riding import child
 from waiting import until
 
+from atlas_cueing.telemetry import child_process
 from atlas_cueing.telemetry.child_process import ChildProcess, Left, ProcessExit
 
 PATIENCE = 60.0  # s, for what takes milliseconds on a machine that has time
@@ -48,6 +49,41 @@ def test_a_killed_one_is_dead_before_it_is_reaped() -> None:
     os.kill(process.pid, signal.SIGKILL)
     until(lambda: not process.alive)
     assert process.finish(PATIENCE) == ProcessExit(b"", -signal.SIGKILL)
+
+
+def busy(left: Left) -> bytes:
+    """Ask all the time, on a core of its own if there is one."""
+    os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+    while not left():
+        pass
+    return b""
+
+
+def test_one_that_is_looked_at_while_it_answers_never_seems_to_hang() -> None:
+    """A beat that is read while it is written is the old one or the new one."""
+    process, cores = ChildProcess(busy), os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {max(cores)})
+    try:
+        sleep(0.1)
+        assert all(process.answers for _ in range(100_000))
+    finally:
+        os.sched_setaffinity(0, cores)
+        process.finish(PATIENCE)
+
+
+def test_one_that_hangs_lives_and_does_not_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(child_process, "HANGS_S", 0.5)
+    process = ChildProcess(patient)
+    until(lambda: process.answers)
+    os.kill(process.pid, signal.SIGSTOP)
+    until(lambda: not process.answers)
+    assert process.alive
+    os.kill(process.pid, signal.SIGCONT)
+    until(lambda: process.answers)
+    os.kill(process.pid, signal.SIGKILL)
+    until(lambda: not process.alive)
+    assert not process.answers
+    process.finish(PATIENCE)
 
 
 def test_one_that_does_not_end_is_killed() -> None:

@@ -88,4 +88,5 @@ METHOD = Method(
             "assumed: far above the frequencies of what it may do",
         ),
     ),
+    fixed=("rounds",),
 )

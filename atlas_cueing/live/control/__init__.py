@@ -1,12 +1,14 @@
 """The supervisory controller: from readings of the source to one command a tick."""
 
 from .command import Command, command_of, standstill
-from .controller import LiveController, OperatorInputs, RunOutcome
+from .controller import LiveController
 from .drive_monitor import DriveMonitor
 from .drive_status import DriveFeedback, DriveStatus
 from .guard import Guard
 from .input_monitor import InputMonitor
+from .operator_inputs import OperatorInputs
 from .platform_controller import PlatformController
+from .run_account import RunOutcome
 from .state_machine import Event, State, allowed_buttons, next_state
 
 __all__ = [

@@ -7,7 +7,7 @@ that says otherwise, or no word, is a fault; at rest it is a reason not to set o
 # mypyc: runs every tick
 
 from collections import deque
-from math import degrees, inf, radians
+from math import degrees, inf, isfinite, radians
 
 from ...rotation import Vec3
 from .command import Command
@@ -31,7 +31,7 @@ class DriveMonitor:
     """
 
     def __init__(self, feedback: DriveFeedback, limits: bytes, timeout: float = TIMEOUT) -> None:
-        """Set up.
+        """Begin with no status heard.
 
         Args:
             feedback: where statuses come from.
@@ -154,7 +154,10 @@ class DriveMonitor:
             reason = f": {status.reason}" if status.reason else ""
             return "waiting", f"the drives wait for a first set point{reason}"
         if status.followed != self._feedback.session:
-            return "stranger", "the drives follow the set points of another run; reset them"
+            return "stranger", (
+                "the drives follow the set points of another run; wait until that has ended parked,"
+                " or reset them"
+            )
         if status.state == "latched":
             return "latched", f"the drives have latched: {status.reason}; reset them"
         return ("off", self._off) if self._off else ("", "")
@@ -220,4 +223,6 @@ def _cubic(h: float, u: float, p0: Vec3, v0: Vec3, p1: Vec3, v1: Vec3) -> Vec3:
 
 
 def _largest(one: Vec3, other: Vec3) -> float:
-    return max(abs(a - b) for a, b in zip(one, other, strict=True))
+    """Return the largest difference of two vectors; infinite where there is none."""
+    x, y, z = (abs(a - b) for a, b in zip(one, other, strict=True))
+    return max(x, y, z) if isfinite(x + y + z) else inf

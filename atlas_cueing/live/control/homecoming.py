@@ -20,7 +20,7 @@ class Homecoming:
     """
 
     def __init__(self, applies: bool, stopped: bool) -> None:
-        """Set up.
+        """Begin with no way home known to be needed.
 
         Args:
             applies: there are drives, and nobody attends the run.
@@ -29,7 +29,7 @@ class Homecoming:
         self._applies, self.homeward = applies, stopped
         self._late_only = False
         self._punctual_since: float | None = None  # s
-        self._requests = 0  # to end, when it stopped
+        self._requests = self._requests_before = 0  # to end, that do not count any more
 
     @property
     def advice(self) -> str:
@@ -39,17 +39,29 @@ class Homecoming:
         remedy = f"after {HOME_AFTER:g} punctual s" if self._late_only else "no more"
         return f"set points go on; it moves {remedy}; Ctrl-C or SIGTERM ends the run"
 
-    def note_fault(self, late: bool) -> None:
-        """Note a fault, and whether lateness is its reason."""
-        self._late_only = late
+    def note_fault(self, requests: int) -> None:
+        """Note a fault, which is none of lateness until `note_lateness` says so.
 
-    def note_stop(self, requests: int) -> None:
-        """Note that the platform has stopped, and how often the run had been asked to end.
+        requests: to end, up to now, which do not end the run once it has stopped.
+        """
+        self._late_only = False
+        self._requests_before = requests
 
-        Two requests have asked for this stop, and are all that is needed.
+    def note_lateness(self) -> None:
+        """Note that lateness was the reason of the fault."""
+        self._late_only = True
+
+    def note_stop(self) -> None:
+        """Note that the platform has stopped.
+
+        Two requests have asked for this stop, and the second is all that is needed.
         """
         self._punctual_since = None
-        self._requests = requests - (requests > 1)
+        self._requests = self._requests_before - (self._requests_before > 1)
+
+    def waits(self, requests: int) -> bool:
+        """Whether an operator's reset is waited for: nobody has asked to end since the fault."""
+        return requests < 2 and requests <= self._requests_before
 
     def stays(self, requests: int) -> bool:
         """Whether a stopped run goes on, asked to end so often up to now."""

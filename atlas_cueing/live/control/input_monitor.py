@@ -38,6 +38,11 @@ class InputMonitor:
         self._last_held = -inf  # s; when the operator's hold was last seen
         self.held = False
 
+    @property
+    def good(self) -> bool:
+        """Whether the input is good now."""
+        return self._good_since is not None
+
     def good_for(self, time: float) -> float:
         """Return how long the input has been good at `time`, s."""
         return 0.0 if self._good_since is None else time - self._good_since

@@ -22,6 +22,7 @@ from ...rotation import (
     subtract,
 )
 from ...signals import Cue, Motion, StageLimits, Tick, VehicleState, WheelLimits, WheelSpeeds
+from .at_rest import is_at_home, is_at_rest, is_still
 from .certified_axis import six_axes
 from .command import Command, command_from
 from .gentle_stop import GentleStop
@@ -40,8 +41,6 @@ from .trajectories import (
     turn_home,
 )
 
-# rad/s, m/s, and a tenth of it per s^2: below this the platform is at rest (assumed: imperceptible)
-AT_REST = 1e-3
 LONGEST_BLEND = 5.0  # s
 
 
@@ -110,6 +109,11 @@ class PlatformController:
         return self._cueing is None
 
     @property
+    def has_not_left(self) -> bool:
+        """Whether it is at home, and no cueing has moved it since it was parked."""
+        return self._cueing is None and not self._slowly and is_at_home(self._motion)
+
+    @property
     def motion(self) -> Motion:
         """The last motion."""
         return self._motion
@@ -121,13 +125,10 @@ class PlatformController:
             case State.ENGAGING:
                 return isinstance(self._trajectory, EngageTrajectory) and self._trajectory.arrived
             case State.PARKING:
-                return (
-                    isinstance(self._trajectory, ParkTrajectory)
-                    and self._trajectory_completed
-                    and _is_parked(self._motion)
-                )
+                parking = not isinstance(self._trajectory, GentleStop)
+                return parking and self._trajectory_completed and is_at_home(self._motion)
             case State.FAULT_STOPPING:
-                return _is_still(self._motion)
+                return is_still(self._motion)
         return False
 
     def handle(self, event: Event) -> bool:
@@ -153,10 +154,15 @@ class PlatformController:
         self._trajectory = EngageTrajectory(self._motion, self._cue, self._dt, duration)
 
     def start_next_trajectory(self) -> None:
-        """Start the way back to park as soon as a stop for parking has come to rest."""
+        """Start the way back to park as soon as a stop for parking has come to rest.
+
+        A platform that has not left home stays as it is: there may be no drives to follow it.
+        """
         stopping = isinstance(self._trajectory, GentleStop)
         if self.state is State.PARKING and stopping and self._trajectory_completed:
             self._leave_stop()
+            if self.has_not_left:
+                return
             q, p = self._motion.q_WS, self._motion.p_WS_W
             duration = self._pace.parking_time(turn_home(q), p, self._slowly)
             self._trajectory = ParkTrajectory(self._motion, self._dt, duration)
@@ -220,7 +226,7 @@ class PlatformController:
 
     @property
     def _trajectory_completed(self) -> bool:
-        return self._trajectory.arrived and _is_at_rest(self._motion)
+        return self._trajectory.arrived and is_at_rest(self._motion)
 
     def _enter_state(self, before: State) -> None:
         """Start the trajectory of a new state."""
@@ -285,16 +291,3 @@ def _motion_at(motion: Motion, time: float) -> Motion:
     if m.time == time:
         return m
     return Motion(time, m.q_WS, m.w_WS_W, m.alpha_WS_W, m.p_WS_W, m.v_WS_W, m.a_WS_W, m.limited)
-
-
-def _is_still(motion: Motion) -> bool:
-    return not any((*motion.w_WS_W, *motion.alpha_WS_W, *motion.v_WS_W, *motion.a_WS_W))
-
-
-def _is_at_rest(motion: Motion) -> bool:
-    rate, bend = hypot(*motion.w_WS_W, *motion.v_WS_W), hypot(*motion.alpha_WS_W, *motion.a_WS_W)
-    return rate < AT_REST and bend < 10.0 * AT_REST
-
-
-def _is_parked(motion: Motion) -> bool:
-    return Pose(motion.q_WS, ZERO, motion.p_WS_W).is_home

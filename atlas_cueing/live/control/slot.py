@@ -6,6 +6,8 @@ from collections.abc import Callable
 
 RESERVE = 0.001  # s that guard, encoding and transport of a set point may take (assumed)
 
+_REMEDY = "what helps: --priority, a longer --lead, a lower --rate, fewer programs beside it"
+
 
 class Slot:
     """One period of the loop.
@@ -19,7 +21,7 @@ class Slot:
     """
 
     def __init__(self, now: Callable[[], float], time: float, needed: float, due: int = 0) -> None:
-        """Set up.
+        """Begin with its set point not yet sent.
 
         Args:
             now: returns the time of the loop's clock, s.
@@ -36,3 +38,11 @@ class Slot:
         A number above zero means that the slot is lost.
         """
         return self.now() - self._latest
+
+
+def lateness_text(late: float, drives: bool) -> str:
+    """Return in words what a slot that is lost by `late` (s) means, with or without drives."""
+    lost = "a set point came {:.1f} ms too late for the drives"
+    if not drives:
+        lost = "a tick came {:.1f} ms too late for its slot"
+    return f"{lost.format(1e3 * late)}; {_REMEDY}"

@@ -76,6 +76,11 @@ class FoxgloveProcess:
         """Whether it serves."""
         return self._process.alive
 
+    @property
+    def answers(self) -> bool:
+        """Whether it serves, and does not hang (`ChildProcess.answers`)."""
+        return self._process.answers
+
     def close(self, timeout: float = 2.0) -> bool:
         """End the server, by force after `timeout` s; return whether it had served until now.
 

@@ -67,6 +67,11 @@ class OperatorDesk:
         """Whether it serves."""
         return self._process.alive
 
+    @property
+    def answers(self) -> bool:
+        """Whether it serves, and does not hang (`ChildProcess.answers`)."""
+        return self._process.answers
+
     def close(self) -> None:
         """End the process; what is in the ring by then is still told."""
         self._process.finish(_CLOSING)

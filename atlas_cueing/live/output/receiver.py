@@ -22,8 +22,10 @@ from .setpoint import SetPoint, decode
 
 AHEAD_S = 0.1  # s that a due time may lie in the future; more is a clock that is not the sender's
 REJOIN_S = 0.02  # s into its own stop that it may be led away from it
+FREE_S = 0.5  # s without a set point after which a parked ride has ended (assumed)
 SAME = 1e-6  # m, rad and their derivatives: a set point as near to the own stop lies on it
 _NO_TICK = 1e-9  # s
+_NOT_THERE = "packet {} is the first and does not stand where the drives do"
 
 
 class _Motion(Protocol):
@@ -67,7 +69,10 @@ class ReceiverReport:
 
 
 class SetPointReceiver:
-    """Follows the set points of one sender, and stops by itself when one has no successor.
+    """Follows the set points of one ride, and stops by itself when one has no successor.
+
+    A ride whose last set point was parked, and which has sent none for FREE_S since, has ended:
+    then the next one is followed, from where the drives stand. Anything else needs a `reset`.
 
     good, refused: number of packets taken and not taken since the start.
     """
@@ -101,6 +106,7 @@ class SetPointReceiver:
         self._pieces: deque[_Piece] = deque()  # up to the newest set point
         self._stop = _Piece(0, 0, ())  # from the newest set point on
         self._sender: Address | None = None
+        self._parked_until: int | None = None  # when the newest set point came, if parked, ns
         self._newest: SetPoint | None = None
         self._stopping: int | None = None  # since when, ns
         self._latched = self._refusal = ""
@@ -152,6 +158,7 @@ class SetPointReceiver:
             return reason
         self.good += 1
         self._sender = sender
+        self._parked_until = now if point.state == "parked" and _stands(point) else None
         self._margin = min(self._margin, 1e-9 * (point.due - now))
         return ""
 
@@ -184,10 +191,7 @@ class SetPointReceiver:
         if last is None:
             return ""
         if (sender, point.session) != (self._sender, last.session):
-            return (
-                f"packet {point.sequence} is from another sender, {sender[0]}:{sender[1]}, session"
-                f" {point.session}"
-            )
+            return self._successor(point, sender, now)
         if point.sequence <= last.sequence:
             return (
                 f"packet {point.sequence} comes after {last.sequence}: out of order or sent again"
@@ -196,15 +200,26 @@ class SetPointReceiver:
             return f"packet {point.sequence} is not due later than the one before"
         return ""
 
+    def _successor(self, point: SetPoint, sender: Address, now: int) -> str:
+        """Make room for another ride if this one has ended; describe why not, or return ''."""
+        ended = self._parked_until is not None and now - self._parked_until > 1e9 * FREE_S
+        if not (ended and self._newest and point.due > now):
+            return (
+                f"packet {point.sequence} is from another sender, {sender[0]}:{sender[1]}, session"
+                f" {point.session}; this ride has not ended parked"
+            )
+        place = self._newest.command.p_WS_W
+        if not _begins(point, place):
+            return _NOT_THERE.format(point.sequence)
+        self.reset(place)
+        return ""
+
     def _follow(self, point: SetPoint, now: int) -> str:
         """Take a set point into the motion; describe why it cannot be, or return ''."""
         last = self._newest
         if last is None:
-            off = max(abs(a - b) for a, b in zip(point.command.p_WS_W, self._place, strict=True))
-            if not _stands(point) or off > SAME:
-                return (
-                    f"packet {point.sequence} is the first and does not stand where the drives do"
-                )
+            if not _begins(point, self._place):
+                return _NOT_THERE.format(point.sequence)
             self._go_on(point)
             return ""
         if _same(self._stop.at(point.due), axes_of(point.command)):
@@ -250,6 +265,12 @@ class SetPointReceiver:
 def _stands(point: SetPoint) -> bool:
     """Whether the set point is at rest."""
     return not any(v or a for _, v, a in axes_of(point.command))
+
+
+def _begins(point: SetPoint, place: Vec3) -> bool:
+    """Whether the set point may be the first of drives whose stage stands at `place` (m, W)."""
+    off = max(abs(a - b) for a, b in zip(point.command.p_WS_W, place, strict=True))
+    return _stands(point) and off <= SAME
 
 
 def _same(one: Sequence[Vec3], other: Sequence[Vec3]) -> bool:

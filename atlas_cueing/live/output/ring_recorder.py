@@ -1,4 +1,4 @@
-"""From the ring of a live run into its log, so that what a kill can lose is bounded."""
+"""Copies the ring of a live run into its log, so that what a kill can lose is bounded."""
 
 import os
 import select

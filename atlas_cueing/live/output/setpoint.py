@@ -43,7 +43,7 @@ What a receiver has to do (`receiver` does it, and is the reference):
 
 1. Refuse another size, magic, version or state, a wrong check, a number that is not finite, a
    sequence or a due time that does not increase, a due time more than 0.1 s ahead, and any other
-   sender or session than the first good one's.
+   sender or session than the first good one's, but for 6.
 2. Take as the first a set point that stands where the drives stand, and each other one only if
    limited jerk leads to it from the newest, h = the difference of their due times: the inequality
    of `guard`, with its limits. A lost packet is just a longer h.
@@ -54,6 +54,9 @@ What a receiver has to do (`receiver` does it, and is the reference):
    sender derives the same stop from the same set point, and its set points then lie on it.
 5. Leave that stop for a set point on it (1e-6), or within 20 ms for one that is still to come and
    reachable from where the drives are; refuse all else from then on, until it is reset by hand.
+6. When the newest set point was parked and at rest and nothing has come from its sender for 0.5 s,
+   that ride has ended: take the first set point of another session, still to come, as in 2. After
+   any other end, only once it has been reset by hand.
 
 Clocks: due times are the sender's. On another machine they have to be translated by a clock that is
 kept within a millisecond (as by PTP). A receiver that is 3 ms off only shifts the motion; one that

@@ -27,7 +27,7 @@ class StatusSender:
     """Makes the status packets of a receiver, for all loops that have asked."""
 
     def __init__(self, receiver: SetPointReceiver, limits: bytes, key: bytes = b"") -> None:
-        """Set up.
+        """Begin with no loop that has asked.
 
         Args:
             receiver: whose status is told.

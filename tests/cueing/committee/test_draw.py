@@ -37,6 +37,15 @@ def test_the_bound_is_reached() -> None:
     assert felt == pytest.approx([0.3 + DRAW.felt] * 9, rel=1e-9)
 
 
+def test_an_error_alone_is_felt_within_the_draw_s_own_bound() -> None:
+    """What the members feel is for their mean: however much it is, an error does not use it."""
+    draw, canals, error = Draw(0.01, DRAW), Canals(0.01), (0.0, 2.0, 0.0)
+    felt = [norm(canals.feel(draw.step(error, ZERO, 5.0, ZERO))) for _ in range(50)]
+    own = DRAW.felt + DRAW.error_gain * 2.0
+    assert own < DRAW.response * 2.0, "or it would not be wished for"
+    assert 0.9 * own < max(felt) <= own * (1.0 + 1e-9)
+
+
 def test_within_its_bounds_it_turns_as_the_mean_does() -> None:
     draw = Draw(0.01, DRAW)
     for i in range(1000):

@@ -38,6 +38,13 @@ def test_a_force_without_direction_is_no_loss() -> None:
     assert organs_loss(LOSS, TILTED, (0.0, 0.0, 0.0), (0.0, 0.0, 3.0), 1.5) > 1.0
 
 
+def test_between_hold_and_twice_it_the_direction_fades_in() -> None:
+    """At half way by half: x^2 (3 - 2 x) of x = 1/2."""
+    half = organs_loss(LOSS, TILTED, (0.0, 0.0, 0.0), (0.0, 0.0, 2.25), 1.5)
+    whole = organs_loss(LOSS, TILTED, (0.0, 0.0, 0.0), (0.0, 0.0, 2.25), 1.0)
+    assert half == pytest.approx(0.5 * whole, rel=1e-12)
+
+
 def test_two_heads_that_perceive_the_same_lose_nothing() -> None:
     rider, pilot = (Observer(0.01, (0.0, 0.0, G), (0.0, 0.0, 0.0)) for _ in range(2))
     for _ in range(100):

@@ -1,7 +1,7 @@
 """What the drives' words mean: a fault while the platform moves, a reason to stay at rest."""
 
 from dataclasses import replace
-from math import inf, radians
+from math import inf, nan, radians
 
 import pytest
 
@@ -78,7 +78,11 @@ def test_drives_that_do_as_they_are_told_are_no_fault() -> None:
     ("said", "fault"),
     [
         ({"state": "latched", "reason": "late"}, "the drives have latched: late; reset them"),
-        ({"followed": 8}, "the drives follow the set points of another run; reset them"),
+        (
+            {"followed": 8},
+            "the drives follow the set points of another run; wait until that has ended parked, or"
+            " reset them",
+        ),
         ({"state": "waiting", "followed": 0}, "the drives wait for a first set point"),
     ],
 )
@@ -110,6 +114,15 @@ def test_a_position_that_is_off_is_a_fault(wheels: bool) -> None:
         x, y, z = getattr(told, name)
         fault = watched.tick(**{name: (x, y + share * most, z)})
         assert ("off the command" in fault) is expected, fault
+
+
+@pytest.mark.parametrize("name", ["wheel_angle", "p_WS_W"])
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_a_position_that_is_no_number_is_off(name: str, axis: int) -> None:
+    watched = in_motion()
+    place = list(getattr(moving(watched.slot - 1), name))
+    place[axis] = nan
+    assert "off the command" in watched.tick(**{name: tuple(place)})
 
 
 def test_between_two_commands_the_motion_is_known_to_microradians() -> None:

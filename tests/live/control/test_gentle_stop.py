@@ -162,3 +162,14 @@ def test_random_platforms(seed: int) -> None:
         assert turns <= (speeds[0, k] * pushed[k] < 0.0)
     assert rig.controller.outcome.faults == 0
     assert rig.excess() <= ROUNDING
+
+
+def test_near_the_end_of_the_travel_it_plans_a_harder_stop_and_keeps_to_it() -> None:
+    """Not a soft one that has to be given up on the way for one of the full jerk."""
+    speed, jerk, travel = 0.3, 60.0, 0.5
+    limits = axis(1.0, 6.0, jerk, travel)
+    soft, _ = flown(limits, (0.0, speed, 0.0))
+    room = 0.5 * (soft[-1, 0] + limits.stop(0.0, speed, 0.0).end)
+    path, h = flown(limits, (travel - room, speed, 0.0))
+    assert path[:, 0].max() <= travel
+    assert 0.45 * jerk <= np.abs(np.diff(path[:, 2])).max() / h <= 0.95 * jerk
