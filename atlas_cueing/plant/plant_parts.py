@@ -21,7 +21,7 @@ class PlantBody:
 
 @dataclass(frozen=True, slots=True)
 class PlantServo:
-    """Of each wheel: k_p N m s, k_i N m, torque limit N m, inertia kg m^2, losses N m s and N m."""
+    """Servo of each wheel: k_p N m s, k_i N m, limit N m, inertia kg m^2, losses N m s, N m."""
 
     speed_gain: float
     angle_gain: float

@@ -22,7 +22,7 @@ from ..rotation import Vec3
 
 @dataclass(frozen=True, slots=True)
 class Friction:
-    """Of a contact: mu_c, mu_s / mu_c, v_s (m/s), sigma0 (1/m), sigma1 (s/m), C."""
+    """Friction of a contact: mu_c, mu_s / mu_c, v_s (m/s), sigma0 (1/m), sigma1 (s/m), C."""
 
     sliding: float
     static_ratio: float

@@ -20,7 +20,7 @@ _RATE: Final = 10.0  # assumed: 1/s, how fast it takes up a new speed
 
 
 class WheelCorrection:
-    """Of one wheel; limits: speed rad/s, acceleration rad/s^2, jerk rad/s^3."""
+    """Correction of one wheel; limits: speed rad/s, acceleration rad/s^2, jerk rad/s^3."""
 
     def __init__(self, speed: float, acceleration: float, jerk: float) -> None:
         self._most: Final[tuple[float, float, float]] = (speed, acceleration, jerk)

@@ -36,6 +36,24 @@ def test_late_fixes_and_a_bias_are_borne(latency: float) -> None:
     assert observer.bias_S == pytest.approx([0.01 / np.sqrt(3.0)] * 3, abs=1e-4)
 
 
+def test_a_fix_is_not_taken_twice() -> None:
+    """Three fixes are on their way when the first is taken: they must know of its pull."""
+    fix = AbsoluteFix(10.0, 0.0, 0.25, Random(1))
+    gyro, observer = (
+        PlantGyro(0.0, 0.0, Random(1)),
+        AttitudeObserver(exp((0.3, 0, 0)), 0.8, 0, 1, 1),
+    )
+    largest = 0.0
+    for k in range(1, 480):
+        observer.turn(k * H, gyro.rate(turning(k - 1), turning(k), H), H)
+        fix.look(k * H, turning(k))
+        for taken, seen in fix.arrived(k * H):
+            observer.take_fix(taken, seen)
+        largest = max(largest, geodesic(observer.q_WS, turning(k)))
+    assert largest < 0.301
+    assert geodesic(observer.q_WS, turning(k)) < 1e-6
+
+
 def test_a_fix_without_its_time_would_be_wrong() -> None:
     """What the test above would miss: taken as of now, a late fix is off by the turn since."""
     random = Random(1)
