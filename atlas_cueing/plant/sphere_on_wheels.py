@@ -71,7 +71,7 @@ class SphereOnWheels:
         self._height += integral(command.stage[2], duration)
 
     def orientation(self) -> Quat:
-        """q_WS."""
+        """Where the sphere is, q_WS."""
         y = self.state
         return (y[0], y[1], y[2], y[3])
 
