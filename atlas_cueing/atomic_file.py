@@ -3,8 +3,10 @@
 import errno
 import os
 import stat
+from collections.abc import Callable
 from pathlib import Path
 from secrets import token_hex
+from typing import BinaryIO
 
 PAGE_BEGINS = "<!doctype html><!-- atlas_cueing -->"  # a page that begins so is ours to replace
 _DOCTYPE = "<!doctype html>"
@@ -59,11 +61,20 @@ def write_whole(file: str | Path, content: str | bytes) -> None:
     A character that UTF-8 has no bytes for, as in some names of files, becomes a question mark.
     Raises OSError, leaves what was there, and nothing new.
     """
+    whole = content if isinstance(content, bytes) else content.encode(errors="replace")
+    write_through(file, lambda new: new.write(whole))
+
+
+def write_through(file: str | Path, write: Callable[[BinaryIO], object]) -> None:
+    """Let `write` fill `file`, which has a passing name until it is complete.
+
+    Raises what `write` raises and OSError, leaves what was there, and nothing new.
+    """
     destination = Destination(Path(file))
     part = destination.passing()
     try:
-        with part.open("xb") as new:
-            new.write(content if isinstance(content, bytes) else content.encode(errors="replace"))
+        with part.open("x+b") as new:
+            write(new)
         destination.take(part)
     finally:
         part.unlink(missing_ok=True)

@@ -30,6 +30,11 @@ def files(folder: Path) -> set[str]:
     }
 
 
+def _is_data(name: str) -> bool:
+    """Whether a file of the package is read at run time, or by users: neither code nor README."""
+    return name.startswith("atlas_cueing/") and not name.endswith((".py", ".md"))
+
+
 @pytest.fixture(scope="module")
 def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A source tree without git and without junk."""
@@ -78,6 +83,13 @@ def test_a_wheel_from_the_sdist_is_that_of_the_tree(
     first, _ = build_wheel(tmp_path / "first", project=project, **plain)
     second, _ = build_wheel(tmp_path / "second", project=sdist, **plain)
     assert files(first) == files(second)
-    assert "atlas_cueing/scenario/presets/atlas-2.9m.toml" in files(first)
+    data = {name for name in files(project) if _is_data(name)}
+    assert {
+        "atlas_cueing/flight_data/maps/csv.toml",
+        "atlas_cueing/py.typed",
+        "atlas_cueing/scenario/presets/atlas-2.9m.toml",
+        "atlas_cueing/vehicles/atlas_packet.h",
+    } <= data
+    assert data - files(first) == set(), "package data that a wheel lacks"
     assert "atlas_cueing/gone.py" not in files(first)
     assert "plain Python" in version_of(second)

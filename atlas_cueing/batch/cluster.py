@@ -47,7 +47,7 @@ def on_cluster(
     as `worker_lost`. Once `stop` is true nothing more is begun. Raises InputError when dask is not
     installed or the scheduler cannot be reached.
     """
-    with _client(address, jobs) as client:
+    with dask_client(address, jobs) as client:
         yield partial(_fly, client)
 
 
@@ -105,7 +105,11 @@ def fly_job(job: Job) -> JobResult:
 
 
 @contextmanager
-def _client(address: str, jobs: int) -> Iterator[Any]:
+def dask_client(address: str, jobs: int) -> Iterator[Any]:
+    """Connect to the scheduler at `address`, or start LOCAL with `jobs` workers.
+
+    Raises InputError when dask is not installed or the scheduler cannot be reached.
+    """
     try:
         import dask
         from distributed import Client, LocalCluster

@@ -26,6 +26,10 @@ from .batch import batch_command
 from .catalogue import KEYS_EPILOG, LIST_EPILOG, NEW_EPILOG, keys_command, list_command, new_command
 from .compare import EPILOG as COMPARE_EPILOG
 from .compare import compare_command
+from .design import EPILOG as DESIGN_EPILOG
+from .design import design_command
+from .export_log import EPILOG as EXPORT_EPILOG
+from .export_log import export_command
 from .import_file import EPILOG as IMPORT_EPILOG
 from .import_file import import_command
 from .live import EPILOG as LIVE_EPILOG
@@ -72,8 +76,10 @@ app.command("compare", epilog=COMPARE_EPILOG)(compare_command)
 app.command("recue", epilog=RECUE_EPILOG)(recue_command)
 app.command("recover", epilog=RECOVER_EPILOG)(recover_command)
 app.command("import", epilog=IMPORT_EPILOG)(import_command)
+app.command("export", epilog=EXPORT_EPILOG)(export_command)
 app.command("plant", epilog=PLANT_EPILOG)(plant_command)
 app.command("platform", epilog=PLATFORM_EPILOG)(platform_command)
+app.command("design", epilog=DESIGN_EPILOG)(design_command)
 app.command("new", epilog=NEW_EPILOG)(new_command)
 app.command("keys", epilog=KEYS_EPILOG)(keys_command)
 app.command("list", epilog=LIST_EPILOG)(list_command)

@@ -61,12 +61,13 @@ def keys_command(
 def new_command(
     name: Annotated[str, typer.Argument(help="Name of the scenario.", metavar="NAME")],
 ) -> None:
-    """Write a scenario with comments, NAME.toml, that flies as it is.
+    """Write a scenario with comments, NAME.toml, that flies as it is; NAME may end in .toml.
 
     Exit status 0: written. 2: no such name, or the file exists.
     """
     from ..scenario.new_scenario import new_scenario
 
+    name = name.removesuffix(".toml")
     text, file = new_scenario(name), Path(f"{name}.toml")
     try:
         with file.open("x", encoding="utf-8") as new:
@@ -94,7 +95,14 @@ def list_command(
         typer.echo("\n".join(sorted(lists[kind]())))
     elif kind == "properties" and aircraft in own_aircraft():
         typer.echo("\n".join(properties(aircraft)))
+    elif kind == "properties" and not aircraft:
+        raise InputError(
+            "list properties: of which aircraft? as: atlas-cueing list properties f16; all of them:"
+            " atlas-cueing list aircraft"
+        )
     elif kind == "properties":
         raise InputError(f"aircraft {aircraft!r}: allowed: one of atlas-cueing list aircraft")
+    elif kind in lists:
+        raise InputError(f"list {kind} {aircraft}: allowed: list {kind}, without {aircraft!r}")
     else:
         raise InputError(f"{kind}: allowed: {_KINDS}")

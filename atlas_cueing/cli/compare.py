@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..printable import printable
-from .options import AsJson
+from .options import AsJson, Figure
 from .text import FIGURES
 
 if TYPE_CHECKING:
@@ -19,6 +19,8 @@ Examples:
   atlas-cueing compare blend.mcap attitude.mcap
 
   atlas-cueing compare blend.mcap attitude.mcap --html both.html
+
+  atlas-cueing compare still.mcap hedge.mcap force.mcap --figure rides.pdf
 """
     + FIGURES
 )
@@ -36,6 +38,7 @@ def compare_command(
             "--html", metavar="FILE", help="Write overlaid plots into one file for a browser."
         ),
     ] = None,
+    figure: Figure = None,
     different_flights: Annotated[
         bool,
         typer.Option(
@@ -44,7 +47,7 @@ def compare_command(
     ] = False,
     as_json: AsJson = False,
     force: Annotated[
-        bool, typer.Option("--force", help="Replace the page of an earlier comparison.")
+        bool, typer.Option("--force", help="Replace page and figure of an earlier comparison.")
     ] = False,
 ) -> None:
     """Put several logs of one flight side by side.
@@ -53,16 +56,21 @@ def compare_command(
         different flights.
     """
     from ..review import compare_logs as compared
-    from .open_page import check_pages
+    from .open_page import check_figure, check_pages
     from .text import one_json, say
 
     if html:
         (html,) = check_pages([html], inputs=logs, force=force)
+    figure = check_figure(figure, inputs=logs, force=force)
     comparison = compared(logs, different_flights=different_flights)
     if html:
         from ..review.report import write_comparison
 
         write_comparison(comparison, html)
+    if figure:
+        from ..review.figures import write_comparison_figure
+
+        write_comparison_figure(comparison, figure)
     typer.echo(one_json(comparison.to_json()) if as_json else comparison_table(comparison))
     if not comparison.clean:
         for name, each in zip(comparison.names, comparison.reviews, strict=True):

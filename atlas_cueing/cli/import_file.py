@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
 
@@ -24,42 +24,52 @@ Examples:
   atlas-cueing import bag_folder -o ride.mcap --map ros-imu --set force.table=/imu/data
 
   atlas-cueing import car.csv -o car.mcap --map my_map.toml
+
+  atlas-cueing import auto.csv -o auto.mcap --map csv --set csv.delimiter=';' --set csv.decimal=','
 """
 
 _SHOWN = 20  # notes printed; --json has all
 
 
+File: TypeAlias = Annotated[
+    Path | None,
+    typer.Argument(help="CSV file, ROS bag, ULog or DataFlash log.", metavar="FILE"),
+]
+NewFlight: TypeAlias = Annotated[
+    Path | None, typer.Option("-o", "--output", metavar="FLIGHT", help="Log to write.")
+]
+MapName: TypeAlias = Annotated[
+    str | None,
+    typer.Option(
+        "--map",
+        metavar="NAME|MAP.toml",
+        help="What the columns are: a map of the package, or one of your own.",
+    ),
+]
+MapSettings: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set", metavar="KEY=VALUE", help="Set any key of the map, as force.frame; repeatable."
+    ),
+]
+Split: TypeAlias = Annotated[
+    bool,
+    typer.Option(
+        "--split", help="Write a flight of each piece between two gaps: FLIGHT_1.mcap, ..."
+    ),
+]
+ListMaps: TypeAlias = Annotated[
+    bool, typer.Option("--list-maps", help="List the maps of the package, and their files.")
+]
+
+
 def import_command(
-    file: Annotated[
-        Path | None,
-        typer.Argument(help="CSV file, ROS bag, ULog or DataFlash log.", metavar="FILE"),
-    ] = None,
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="FLIGHT", help="Log to write.")
-    ] = None,
-    map_name: Annotated[
-        str | None,
-        typer.Option(
-            "--map",
-            metavar="NAME|MAP.toml",
-            help="What the columns are: a map of the package, or one of your own.",
-        ),
-    ] = None,
-    settings: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--set", metavar="KEY=VALUE", help="Set any key of the map, as force.frame; repeatable."
-        ),
-    ] = None,
-    split: Annotated[
-        bool,
-        typer.Option(
-            "--split", help="Write a flight of each piece between two gaps: FLIGHT_1.mcap, ..."
-        ),
-    ] = False,
-    list_maps: Annotated[
-        bool, typer.Option("--list-maps", help="List the maps of the package, and their files.")
-    ] = False,
+    file: File = None,
+    output: NewFlight = None,
+    map_name: MapName = None,
+    settings: MapSettings = None,
+    split: Split = False,
+    list_maps: ListMaps = False,
     as_json: AsJson = False,
     force: Force = False,
 ) -> None:
@@ -72,14 +82,12 @@ def import_command(
     Exit status 0: written. 2: bad input; file, line or message, and column are named, and nothing
         was written.
     """
-    from ..flight_data import import_flight as imported
     from ..flight_data import load_map, write_flight
     from ..run import check_output
-    from .progress import shown_share
     from .text import aligned, one_json
 
     if list_maps:
-        typer.echo("\n".join(_map_lines()))
+        typer.echo(one_json({"maps": _maps()}) if as_json else "\n".join(_map_lines()))
         return
     if file is None or output is None or map_name is None:
         raise InputError(
@@ -87,12 +95,10 @@ def import_command(
             " package: atlas-cueing import --list-maps"
         )
     flight_map = load_map(map_name, settings or ())
-    read = [file, *(file.iterdir() if file.is_dir() else ())]
-    read += [Path(map_name)] if Path(map_name).suffix == ".toml" else []
+    read = _read_files(file, map_name)
     if not split:
         check_output(output, inputs=read, force=force)
-    with shown_share(file.name) as progress:
-        found = imported(file, flight_map, split=split, progress=progress)
+    found = _imported(file, flight_map, split)
     logs = _logs(output, len(found.flights), split)
     real = [check_output(log, inputs=read, force=force) for log in logs]
     for number, log in enumerate(real):
@@ -103,6 +109,20 @@ def import_command(
     typer.echo("\n".join(aligned(_rows(found, flight_map, logs), "")))
 
 
+def _read_files(file: Path, map_name: str) -> list[Path]:
+    """Files that are read, and so never replaced: those of a bag's folder, a map of one's own."""
+    own_map = [Path(map_name)] if Path(map_name).suffix == ".toml" else []
+    return [file, *(file.iterdir() if file.is_dir() else ()), *own_map]
+
+
+def _imported(file: Path, flight_map: "FlightMap", split: bool) -> "ImportedFlights":
+    from ..flight_data import import_flight
+    from .progress import shown_share
+
+    with shown_share(file.name) as progress:
+        return import_flight(file, flight_map, split=split, progress=progress)
+
+
 def _logs(output: Path, count: int, split: bool) -> list[Path]:
     """Return the logs to write: one, or with `split` one for each flight, numbered."""
     if not split or count == 1:
@@ -110,13 +130,25 @@ def _logs(output: Path, count: int, split: bool) -> list[Path]:
     return [output.with_name(f"{output.stem}_{k}{output.suffix}") for k in range(1, count + 1)]
 
 
-def _map_lines() -> Iterator[str]:
+def _maps() -> list[dict[str, str]]:
+    """The maps of the package: name, format, description, file."""
     from ..flight_data import known_maps, load_map
 
-    for name, path in known_maps().items():
-        found = load_map(name)
-        yield f"{name:<18} {found.format:<10} {found.description}"
-        yield f"{'':<29} {path}"
+    return [
+        {
+            "name": name,
+            "format": (found := load_map(name)).format,
+            "description": found.description,
+            "file": str(path),
+        }
+        for name, path in known_maps().items()
+    ]
+
+
+def _map_lines() -> Iterator[str]:
+    for each in _maps():
+        yield f"{each['name']:<18} {each['format']:<10} {each['description']}"
+        yield f"{'':<29} {each['file']}"
 
 
 def _rows(

@@ -1,4 +1,4 @@
-"""Check of the files into which pages for the browser are written."""
+"""Check of the files into which pages for the browser, and figures for papers, are written."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -22,3 +22,16 @@ def check_pages(
         checked = file and check_output(file, PAGE, inputs=inputs, outputs=others, force=force)
         real.append(checked)
     return real
+
+
+def check_figure(file: Path | None, *, inputs: Sequence[Path], force: bool) -> Path | None:
+    """Check where a figure is written, if one is, as `check_pages` does; give its real path.
+
+    Raises InputError for another ending than .svg and .pdf.
+    """
+    if file is None:
+        return None
+    from ..review.figures import figure_kind
+    from ..run import check_output
+
+    return check_output(file, figure_kind(file), inputs=inputs, force=force)

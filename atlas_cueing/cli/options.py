@@ -34,6 +34,10 @@ Force: TypeAlias = Annotated[
 AsJson: TypeAlias = Annotated[
     bool, typer.Option("--json", help="Print one JSON object and nothing else.")
 ]
+Figure: TypeAlias = Annotated[
+    Path | None,
+    typer.Option("--figure", metavar="FILE", help="Draw a figure for a paper: .svg or .pdf."),
+]
 Port: TypeAlias = Annotated[
     int,
     typer.Option(

@@ -40,8 +40,8 @@ def recue_command(
     The vehicle in the log goes through another method, other parameters or another platform.
     Without --set the new log repeats the old one's cue, motion and wheels exactly.
 
-    Exit status 0: written and clean. 1: the new log has a finding, or the old one is damaged. 2:
-        bad input, nothing written.
+    Exit status 0: written and clean. 1: the new log has a finding. 2: bad input, also an old log
+        that is damaged, and nothing written.
     """
     from ..review import cue_again as recued
     from ..review import review_log as judged

@@ -1,12 +1,14 @@
 """`atlas-cueing review`: a log judged by its own numbers."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
 
 from ..errors import InputError, LogError
-from .options import AsJson, Port
+from .options import AsJson, Figure, Port
 from .text import FIGURES
 
 if TYPE_CHECKING:
@@ -21,6 +23,8 @@ Examples:
 
   atlas-cueing review f16_rolls.mcap --html f16_rolls.html --replay f16_rolls_3d.html
 
+  atlas-cueing review f16_rolls.mcap --figure f16_rolls.pdf
+
   atlas-cueing review f16_rolls.mcap --view
 
   atlas-cueing review f16_rolls.mcap --json
@@ -31,28 +35,32 @@ Examples:
 _SHOWN = 20  # findings printed; --json has all
 
 
+Html: TypeAlias = Annotated[
+    Path | None,
+    typer.Option(
+        "--html", metavar="FILE", help="Write plots of everything into one file for a browser."
+    ),
+]
+Replay: TypeAlias = Annotated[
+    Path | None,
+    typer.Option("--replay", metavar="FILE", help="Write a 3D replay into one file for a browser."),
+]
+View: TypeAlias = Annotated[
+    bool,
+    typer.Option("--view", help="Show the flight in a browser until Ctrl-C, with a play bar."),
+]
+
+
 def review_command(
     log: Annotated[Path, typer.Argument(help="Log (MCAP) of atlas-cueing.", metavar="LOG")],
-    html: Annotated[
-        Path | None,
-        typer.Option(
-            "--html", metavar="FILE", help="Write plots of everything into one file for a browser."
-        ),
-    ] = None,
-    replay: Annotated[
-        Path | None,
-        typer.Option(
-            "--replay", metavar="FILE", help="Write a 3D replay into one file for a browser."
-        ),
-    ] = None,
-    view: Annotated[
-        bool,
-        typer.Option("--view", help="Show the flight in a browser until Ctrl-C, with a play bar."),
-    ] = False,
+    html: Html = None,
+    replay: Replay = None,
+    figure: Figure = None,
+    view: View = False,
     port: Port = 8080,
     as_json: AsJson = False,
     force: Annotated[
-        bool, typer.Option("--force", help="Replace pages of earlier reviews.")
+        bool, typer.Option("--force", help="Replace pages and figures of earlier reviews.")
     ] = False,
 ) -> None:
     """Judge a log by its own numbers.
@@ -63,27 +71,45 @@ def review_command(
     Exit status 0: nothing was found. 1: a finding, or the log is damaged or not one of ours. 2: bad
         usage.
     """
-    from ..review import advice, is_flight_alone, judge, open_log, run_of
-    from .open_page import check_pages
+    from ..review import is_flight_alone, judge, open_log, run_of
+    from .open_page import check_figure, check_pages
     from .text import one_json
 
-    if html or replay:
-        html, replay = check_pages([html, replay], inputs=[log], force=force)
-    try:
+    html, replay = check_pages([html, replay], inputs=[log], force=force)
+    figure = check_figure(figure, inputs=[log], force=force)
+    with _told_what_to_do(log, as_json):
         opened = open_log(log)
-        if is_flight_alone(opened):
-            _end_flight(opened, as_json, pages=bool(html or replay or view))
-            return
-        found = judge(run_of(opened))
+        alone = is_flight_alone(opened)
+        found = None if alone else judge(run_of(opened))
+    if found is None:
+        _end_flight(opened, as_json, pages=bool(html or replay or view or figure))
+        return
+    _write(found, html, replay, figure)
+    typer.echo(one_json(found.to_json()) if as_json else review_summary(found))
+    if view:
+        _play(found, port)
+    if not found.clean:
+        raise typer.Exit(1)
+
+
+@contextmanager
+def _told_what_to_do(log: Path, as_json: bool) -> Iterator[None]:
+    """Add to the error of a log that cannot be read what may help; print it as JSON, too."""
+    from ..review import advice
+    from .text import one_json
+
+    try:
+        yield
     except LogError as error:
         if as_json:
-            typer.echo(
-                one_json(
-                    {"verdict": "unreadable", "result": "", "reason": str(error), "log": str(log)}
-                )
-            )
+            told = {"verdict": "unreadable", "result": "", "reason": str(error), "log": str(log)}
+            typer.echo(one_json(told))
         todo = advice(log)
         raise LogError(f"{error}; {todo}" if todo else str(error)) from error
+
+
+def _write(found: "Review", html: Path | None, replay: Path | None, figure: Path | None) -> None:
+    """Write what was asked for, each with what draws it."""
     if html:
         from ..review.report import write_page
 
@@ -92,14 +118,18 @@ def review_command(
         from ..viewer import write_replay
 
         write_replay(found.run.platform, found.run.flight, replay)
-    typer.echo(one_json(found.to_json()) if as_json else review_summary(found))
-    if view:
-        from ..viewer import play
+    if figure:
+        from ..review.figures import write_ride_figure
 
-        title = found.run.log.metadata.get("scenario", "") or log.stem
-        play(found.run.platform, found.run.flight, _say_address, port=port, title=title)
-    if not found.clean:
-        raise typer.Exit(1)
+        write_ride_figure(found.run, figure)
+
+
+def _play(found: "Review", port: int) -> None:
+    from ..viewer import play
+
+    log = found.run.log
+    title = log.metadata.get("scenario", "") or log.path.stem
+    play(found.run.platform, found.run.flight, _say_address, port=port, title=title)
 
 
 def _end_flight(log: "Log", as_json: bool, *, pages: bool) -> None:

@@ -187,3 +187,12 @@ def vertical_share(flight: GriddedFlight) -> float:
     """
     up = -rotate(flight.q_NB, flight.f_B)[:, 2]
     return float(np.mean(up)) / STANDARD_GRAVITY
+
+
+def upright_share(flight: GriddedFlight) -> float:
+    """Return the upward part, in the body's own axes, of the first second's mean force, over g.
+
+    It is 1 where the vehicle begins upright at rest, -1 where its axes are upside down.
+    """
+    first = max(round(1.0 / flight.step), 1)
+    return -float(np.mean(flight.f_B[:first, 2])) / STANDARD_GRAVITY

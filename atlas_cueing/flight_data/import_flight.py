@@ -18,6 +18,7 @@ from .gridded_flight import (
     check_believable,
     flight_on,
     unexplained,
+    upright_share,
     vertical_share,
 )
 from .readers import READERS
@@ -242,6 +243,12 @@ def _doubts(flights: list[GriddedFlight], flight_map: FlightMap) -> list[str]:
             notes.append(
                 f"rates and attitude differ by {rate:.3g} rad/s (rms); do frame and unit of both"
                 " fit in the map?"
+            )
+        if flight.attitude != MEASURED and (up := upright_share(flight)) < _UPWARD:
+            notes.append(
+                "without an attitude the vehicle hangs by its force, which begins with"
+                f" {up:.2f} g upwards in its own axes, where 1 is upright; do force.frame and scale"
+                " fit, or is the sensor mounted another way?"
             )
         share = vertical_share(flight)
         if share < _UPWARD:

@@ -14,16 +14,18 @@ Then d is where the convex potential
 
     Phi(d) = sum max(0, n0_j + k_j u_j . d)^2 / (2 k_j) + need . d
 
-is least (the minimum of complementary energy), which Newton steps with a line search find in
-finitely many steps, Phi being piecewise quadratic. Where it has no least value, no push of the
-contacts balances `need`: the sphere lifts off. The bilateral forces are given then, negative at
-the contacts that would have to pull.
+is least (the minimum of complementary energy), which Newton steps with a line search find in a
+few steps, Phi being piecewise quadratic. Where they do not, as when no more than two contacts push
+on the way, `exact_push` does. Where Phi has no least value, no push of the contacts balances
+`need`: the sphere lifts off. The bilateral forces are given then, negative at the contacts that
+would have to pull.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..rotations import Array
+from .exact_push import pushing_forces
 from .model import LARGEST_CONDITION_NUMBER, LoadModel
 
 _MOST_STEPS = 60
@@ -49,12 +51,14 @@ def normal_forces(model: LoadModel, need_W: Array) -> tuple[Array, NDArray[np.bo
     if len(model.all_contacts) > 3:
         for k in np.flatnonzero(~pushing).tolist():
             opened = _with_open_contacts(model, need_W[k])
+            if opened is None:
+                opened = pushing_forces(model, need_W[k])
             forces[k] = forces[k] if opened is None else opened
     return forces, pushing
 
 
 def _with_open_contacts(model: LoadModel, need: Array) -> Array | None:
-    """Normal forces (N + M,) of which none is negative, or None where nothing balances `need`."""
+    """Normal forces (N + M,) of which none is negative, or None where Newton's steps find none."""
     d = np.zeros(3)
     scale = float(np.abs(need).max() + np.abs(model.unloaded).max() + 1e-300)
     for _ in range(_MOST_STEPS):

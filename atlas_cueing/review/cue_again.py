@@ -6,7 +6,7 @@ from typing import Any
 
 from ..cueing.own.own_method import RESERVED
 from ..cueing.own.sources import is_file_reference
-from ..errors import InputError, MethodError, OutputError, ScenarioError
+from ..errors import InputError, LogError, MethodError, OutputError, ScenarioError
 from ..recording import Log, McapRecorder
 from ..run import METHOD_FAILED, open_recorder, prepare, ticks
 from ..scenario import Scenario, recorded_vehicle, regular_vehicle
@@ -18,6 +18,7 @@ from ..signals import Tick
 from .attachments import SCENARIO, as_inside, unpacked
 from .flight_alone import scenario_of_flight
 from .recorded_run import open_log
+from .recovery import advice
 
 _FLOWN = ("vehicle", "duration_s")  # keys of what has been flown already
 
@@ -39,11 +40,12 @@ def cue_again(
 
     Raises InputError (nothing was written) for settings that do not fit or do not name what is
     missing, for a log without a flight that can be cued, and for one by a method that is not to be
-    had, or not as it was: no other method stands in for it. LogError for a log that is damaged.
+    had, or not as it was: no other method stands in for it; also for a log
+    that is damaged.
     """
     _refuse_flown(settings)
     output = Path(output)
-    log = open_log(path)
+    log = _input(Path(path))
     bare = SCENARIO not in log.attachments
     recorded = regular_vehicle(log) if bare else recorded_vehicle(log)
     scenario, attachments = _scenario_for(log, settings, trust_models)
@@ -65,6 +67,15 @@ def cue_again(
         recorder.part.unlink(missing_ok=True)  # half of it is of no use: the flight is still there
         raise
     return scenario
+
+
+def _input(path: Path) -> Log:
+    """Read a log that is input here. Raises InputError for whatever is no log, or a damaged one."""
+    try:
+        return open_log(path)
+    except LogError as error:
+        todo = advice(path)
+        raise InputError(*error.lines, *([f"{path}: {todo}"] if todo else [])) from error
 
 
 def _scenario_for(

@@ -19,6 +19,8 @@ from .checks.timestamps import check_timestamps
 from .finding import Finding
 from .recorded_run import RecordedRun, open_run
 
+MEASURED = "measured"  # what the log of an imported flight says of its attitude
+
 
 @dataclass(frozen=True, slots=True)
 class Review:
@@ -109,5 +111,18 @@ def judge(run: RecordedRun) -> Review:
             remarks = traction_notes(run)
         figures = evaluate_flight(run.log, run.flight, run.platform).metrics
     found.sort(key=lambda finding: -1.0 if finding.time is None else finding.time)
-    lines = (*run.log.notes, *state_notes(run), *punctuality_notes(run), *remarks)
+    lines = (
+        *run.log.notes,
+        *_origin_notes(run),
+        *state_notes(run),
+        *punctuality_notes(run),
+        *remarks,
+    )
     return Review(run, tuple(found), lines, figures)
+
+
+def _origin_notes(run: RecordedRun) -> tuple[str, ...]:
+    """Say where the vehicle's attitude was made and not measured, as of an imported flight."""
+    told = run.log.metadata.get("attitude", MEASURED)
+    made = f"the vehicle's attitude was not measured: {told}; figures of direction depend on it"
+    return () if told == MEASURED else (made,)

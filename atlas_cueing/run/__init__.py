@@ -9,7 +9,7 @@ from .fly import run_scenario
 from .load_promises import broken_promises
 from .open_recorder import PACKAGES, open_recorder
 from .open_vehicle import flight_length, open_vehicle
-from .output import PAGE, check_output
+from .output import PAGE, Kind, check_output
 from .result import METHOD_FAILED, LiveFigures, RunResult
 from .stop_request import StopRequest
 from .ticks import ticks
@@ -20,6 +20,7 @@ __all__ = [
     "PAGE",
     "Evaluation",
     "Evaluator",
+    "Kind",
     "LiveFigures",
     "RunResult",
     "StopRequest",

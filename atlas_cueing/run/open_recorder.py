@@ -39,10 +39,12 @@ def open_recorder(
         OutputError: the log cannot be written there.
     """
     recording, platform = scenario.file.recording, scenario.platform
+    flight = scenario.flight if started_ns is None else scenario.live_flight
+    origin = flight.told() if flown is None else flown
     return McapRecorder(
         log,
         head_S=platform.head_S,
-        metadata={**(flown or {}), **_metadata(scenario, flown is None), **more},
+        metadata={**origin, **_metadata(scenario, flown is None), **more},
         attachments=scenario.attachments() if attachments is None else attachments,
         # a live log is written out by time, in chunks of the recorder's own length
         **({"chunk_ticks": recording.chunk_ticks} if started_ns is None else {}),

@@ -14,17 +14,21 @@ from ..errors import OutputError
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """A kind of output: its name for messages, and how a file of this kind begins."""
+    """A kind of output: its name for messages, and how a file of this kind begins.
+
+    at: bytes in front of that, which may be anything.
+    """
 
     name: str
     begins: bytes
+    at: int = 0
 
     def may_replace(self, begin: bytes) -> bool:
         """Whether a file that begins so may be replaced by one of this kind.
 
         It is one, or empty.
         """
-        return not begin or begin.startswith(self.begins)
+        return not begin or begin[self.at :].startswith(self.begins)
 
 
 LOG: Final = Kind("log", b"\x89MCAP")
@@ -105,7 +109,7 @@ def _check_replaced(file: Path, kind: Kind, force: bool, refusal: str) -> None:
         _refuse("exists and is no regular file")
     if not force:
         _refuse(refusal)
-    if not kind.may_replace(_begin(file, len(kind.begins))):
+    if not kind.may_replace(_begin(file, kind.at + len(kind.begins))):
         _refuse(f"is no {kind.name} of atlas-cueing, and nothing else is replaced")
     if _of_another(file.parent, found):
         _refuse(f"belongs to another user, who alone may replace it in {file.parent}")

@@ -23,7 +23,7 @@ from ..vehicles.jsbsim.user_models import aircraft_objection, user_model, within
 from .mistakes import MOST_SHOWN, Key, nearest, shown
 from .signal_table import Time
 from .source_table import MOST_TABLES, SourceTable, tables
-from .tables import Finite, ScenarioTable, number, object_to, refuse, text
+from .tables import Finite, ScenarioTable, number, object_to, refuse, says, text
 
 _LONGEST_PROPERTY = 200  # characters; the longest of JSBSim's own has 70
 
@@ -63,15 +63,19 @@ def _known_script(value: Any, info: ValidationInfo) -> str:
 class InitialTable(ScenarioTable):
     """`[vehicle.initial]`: see vehicles.InitialConditions."""
 
-    altitude_m: Annotated[float, number(-500.0, 1e7)]
-    airspeed_m_s: Annotated[float, number(0.0, 2e4)]
-    heading_deg: Annotated[float, number(-360.0, 360.0)] = 0.0
-    pitch_deg: Annotated[float, number(-90.0, 90.0)] = 0.0
-    roll_deg: Annotated[float, number(-360.0, 360.0)] = 0.0
-    latitude_deg: Annotated[float, number(-90.0, 90.0)] = 0.0
-    longitude_deg: Annotated[float, number(-360.0, 360.0)] = 0.0
-    engines_running: bool = True
-    trim: bool = False
+    altitude_m: Annotated[float, number(-500.0, 1e7), says("height above the sea at the start")]
+    airspeed_m_s: Annotated[float, number(0.0, 2e4), says("true airspeed at the start")]
+    heading_deg: Annotated[
+        float, number(-360.0, 360.0), says("heading at the start, from north")
+    ] = 0.0
+    pitch_deg: Annotated[float, number(-90.0, 90.0), says("pitch at the start, nose up")] = 0.0
+    roll_deg: Annotated[float, number(-360.0, 360.0), says("roll at the start, to the right")] = 0.0
+    latitude_deg: Annotated[float, number(-90.0, 90.0), says("geodetic latitude at the start")] = (
+        0.0
+    )
+    longitude_deg: Annotated[float, number(-360.0, 360.0), says("longitude at the start")] = 0.0
+    engines_running: Annotated[bool, says("whether the engines run at the start")] = True
+    trim: Annotated[bool, says("look for a steady state before the start")] = False
 
     def conditions(self) -> InitialConditions:
         """Convert it to SI."""
@@ -91,12 +95,14 @@ class InitialTable(ScenarioTable):
 class InputTable(ScenarioTable):
     """One `[[vehicle.input]]`: see vehicles.TimedInput."""
 
-    time_s: Time
+    time_s: Annotated[Time, says("when the property begins to change")]
     property: Annotated[
-        str, text("name of a JSBSim property", lambda name: 0 < len(name) <= _LONGEST_PROPERTY)
+        str,
+        text("name of a JSBSim property", lambda name: 0 < len(name) <= _LONGEST_PROPERTY),
+        says("JSBSim property that is set"),
     ]
-    value: Finite
-    ramp_s: Time = 0.0
+    value: Annotated[Finite, says("what the property becomes")]
+    ramp_s: Annotated[Time, says("how long that takes; 0: at once")] = 0.0
 
     def event(self) -> TimedInput:
         """Convert it to SI."""
@@ -106,10 +112,17 @@ class InputTable(ScenarioTable):
 class JsbsimTable(SourceTable):
     """`[vehicle]` of JSBSim: exactly one of `script` and `aircraft`, which `rules` checks."""
 
-    source: Literal["jsbsim"] = "jsbsim"
-    script: Annotated[str, BeforeValidator(_known_script)] | None = None
-    aircraft: Annotated[str, BeforeValidator(_known_aircraft)] | None = None
-    rate_hz: Annotated[float, number(10.0, 1000.0)] | None = None
+    source: Annotated[Literal["jsbsim"], says("flies JSBSim's model of an aircraft")] = "jsbsim"
+    script: Annotated[
+        Annotated[str, BeforeValidator(_known_script)] | None,
+        says("JSBSim script to fly; or aircraft"),
+    ] = None
+    aircraft: Annotated[
+        Annotated[str, BeforeValidator(_known_aircraft)] | None, says("aircraft to fly; or script")
+    ] = None
+    rate_hz: Annotated[Annotated[float, number(10.0, 1000.0)] | None, says("states a second")] = (
+        None
+    )
     initial: InitialTable | None = None
     input: Annotated[tuple[InputTable, ...], tables("input")] = Field(default=())
 

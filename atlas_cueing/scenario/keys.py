@@ -31,6 +31,7 @@ _OTHER_UNITS = {  # of platforms, beside those of `parameter.UNITS`; the longer 
     "_1_m": "1/m",
     "_1_s": "1/s",
     "_s_m": "s/m",
+    "_per_m": "1/m",
     "_kg_m2": "kg m^2",
     "_n_m_s": "N m s",
     "_rad_s3": "rad/s^3",

@@ -10,7 +10,7 @@ from pydantic import BeforeValidator, model_validator
 
 from ..loads import Drive, Part, Preload, Support, inertia_tensor, is_realizable
 from ..rotation import ZERO, Vec3, add, norm, scale
-from .tables import THREE, Finite, ScenarioTable, number, object_to, refuse
+from .tables import THREE, Finite, ScenarioTable, number, object_to, refuse, says
 
 Direction: TypeAlias = Annotated[tuple[Finite, Finite, Finite], THREE]
 Mass: TypeAlias = Annotated[float, number(0.0, 1e6, above=True)]  # kg
@@ -57,10 +57,16 @@ class PartTable(ScenarioTable):
     The inertia has the elements xx, yy, zz of the tensor, and xy, xz, yz if there are six.
     """
 
-    name: Label | None = None
-    mass_kg: Mass
-    com_m: Direction = ZERO
-    inertia_kg_m2: Annotated[tuple[Finite, ...], BeforeValidator(_three_or_six)]
+    name: Annotated[Label | None, says("what the part is called")] = None
+    mass_kg: Annotated[Mass, says("mass of the part")]
+    com_m: Annotated[Direction, says("its centre of mass from the centre of the sphere, in S")] = (
+        ZERO
+    )
+    inertia_kg_m2: Annotated[
+        tuple[Finite, ...],
+        BeforeValidator(_three_or_six),
+        says("its inertia about its own centre of mass, axes S"),
+    ]
 
     @model_validator(mode="after")
     def _is_a_body(self) -> "PartTable":
@@ -85,15 +91,23 @@ class DriveTable(ScenarioTable):
     that are long against what heats a motor; the presets leave it out.
     """
 
-    torque_n_m: Torque | None = None
-    torque_rms_n_m: Torque | None = None
-    motor_speed_rad_s: Annotated[float, number(1e-3, 1e6)] | None = None
-    motor_inertia_kg_m2: Inertia | None = None
-    gear: Annotated[float, number(1e-3, 1e4)] | None = None
-    efficiency: Annotated[float, number(0.01, 1.0)] | None = None
-    regeneration: bool | None = None
-    viscous_n_m_s: Loss | None = None
-    coulomb_n_m: Loss | None = None
+    torque_n_m: Annotated[Torque | None, says("largest torque at the axle")] = None
+    torque_rms_n_m: Annotated[Torque | None, says("largest rms torque at the axle over a run")] = (
+        None
+    )
+    motor_speed_rad_s: Annotated[
+        Annotated[float, number(1e-3, 1e6)] | None, says("largest speed of the motor")
+    ] = None
+    motor_inertia_kg_m2: Annotated[Inertia | None, says("inertia of the rotor")] = None
+    gear: Annotated[
+        Annotated[float, number(1e-3, 1e4)] | None, says("turns of the motor for one of the axle")
+    ] = None
+    efficiency: Annotated[
+        Annotated[float, number(0.01, 1.0)] | None, says("efficiency of the gear")
+    ] = None
+    regeneration: Annotated[bool | None, says("whether power flows back into the supply")] = None
+    viscous_n_m_s: Annotated[Loss | None, says("viscous loss at the axle")] = None
+    coulomb_n_m: Annotated[Loss | None, says("dry friction at the axle")] = None
 
     def drive(self) -> Drive:
         """Motor and gear, with the defaults of `loads.Drive`."""
@@ -119,8 +133,8 @@ class DriveTable(ScenarioTable):
 class PreloadTable(ScenarioTable):
     """One `[[preload]]`: a constant force towards the centre, as of a pneumatic halo."""
 
-    contact: Direction
-    force_n: Force
+    contact: Annotated[Direction, says("where the force acts, direction from the centre in W")]
+    force_n: Annotated[Force, says("constant force towards the centre")]
 
     def preload(self) -> Preload:
         """The preload, with a unit direction."""
@@ -135,9 +149,11 @@ class PreloadTable(ScenarioTable):
 class SupportTable(ScenarioTable):
     """One `[[support]]`: a passive wheel on a spring; its force with the sphere in its place."""
 
-    contact: Direction
-    stiffness_n_m: Stiffness
-    preload_n: Force = 0.0
+    contact: Annotated[
+        Direction, says("where the passive wheel is, direction from the centre in W")
+    ]
+    stiffness_n_m: Annotated[Stiffness, says("stiffness of its spring")]
+    preload_n: Annotated[Force, says("its force with the sphere in its place")] = 0.0
 
     def support(self) -> Support:
         """The support, with a unit direction."""
@@ -152,8 +168,14 @@ class SupportTable(ScenarioTable):
 class TractionTable(ScenarioTable):
     """`[traction]`: reserve of friction to keep, and whether slip and lift-off are findings."""
 
-    margin: Annotated[float, number(1.0, 100.0)] = 1.25
-    report: Literal["remark", "finding"] = "remark"
+    margin: Annotated[
+        float,
+        number(1.0, 100.0),
+        says("reserve of friction to keep: what is there over what is needed"),
+    ] = 1.25
+    report: Annotated[
+        Literal["remark", "finding"], says("whether slip and lift-off are remarks or findings")
+    ] = "remark"
 
 
 def missing_keys(wheels: Sequence[Any], supports: Any) -> list[str]:

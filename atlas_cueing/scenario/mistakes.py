@@ -97,14 +97,18 @@ def nearest(word: str, known: Collection[str]) -> str:
 def shown(value: Any) -> str:
     """Write a found value as TOML would, cut to a readable length.
 
-    It is empty when there is no value or it is a table.
+    It is empty when there is no value, or it is a table or a list of tables.
     """
-    if value is None or isinstance(value, dict):
+    if value is None or isinstance(value, dict) or _holds_tables(value):
         return ""
     if isinstance(value, date | time):  # a datetime is a date
         return value.isoformat()
     text = str(value).lower() if isinstance(value, bool) else _repr(value)
     return text if len(text) <= _LONGEST_VALUE else text[:_LONGEST_VALUE] + "..."
+
+
+def _holds_tables(value: Any) -> bool:
+    return isinstance(value, list | tuple) and any(isinstance(each, dict) for each in value)
 
 
 def _repr(value: Any) -> str:
@@ -126,6 +130,8 @@ def allowed(detail: ErrorDetails, table: type[ScenarioTable]) -> str:
         return "missing"
     if kind == "union_tag_invalid":
         return nearest(str(context["tag"]), _methods(context["expected_tags"]))
+    if kind == "literal_error":
+        return f"allowed: {context['expected']}"
     if kind in _KINDS:
         return f"allowed: {_KINDS[kind]}"
     if kind == "allowed":

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator
 
 from ..vehicles.sent_flight import LOOPBACK
-from .tables import ScenarioTable, number, refuse, whole
+from .tables import ScenarioTable, number, refuse, says, whole
 
 
 def _loopback(value: Any) -> str:
@@ -26,7 +26,16 @@ class PacketPort(ScenarioTable):
     After `hold_after_s` without a good packet the platform holds.
     """
 
-    rate_hz: Annotated[float, number(10.0, 1000.0)] | None = None
-    host: Annotated[str, BeforeValidator(_loopback)] | None = None
-    port: Annotated[int, whole(1, 65535)] | None = None
-    hold_after_s: Annotated[float, number(0.05, 1.0)] | None = None
+    rate_hz: Annotated[
+        Annotated[float, number(10.0, 1000.0)] | None,
+        says("ticks a second, to which packets are brought"),
+    ] = None
+    host: Annotated[
+        Annotated[str, BeforeValidator(_loopback)] | None, says("address that packets come to")
+    ] = None
+    port: Annotated[
+        Annotated[int, whole(1, 65535)] | None, says("UDP port that packets come to")
+    ] = None
+    hold_after_s: Annotated[
+        Annotated[float, number(0.05, 1.0)] | None, says("silence after which the cabin is held")
+    ] = None

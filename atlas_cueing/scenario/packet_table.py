@@ -7,7 +7,7 @@ from ..printable import is_name
 from ..vehicles import PacketFlight
 from .packet_port import PacketPort
 from .source_table import SourceTable
-from .tables import text
+from .tables import says, text
 
 _LONGEST_PATH = 4096  # characters
 
@@ -19,13 +19,16 @@ class PacketTable(PacketPort, SourceTable):
     every log.
     """
 
-    source: Literal["packets"] = "packets"
-    key_file: (
+    source: Annotated[Literal["packets"], says("takes packets of your own simulator, live")] = (
+        "packets"
+    )
+    key_file: Annotated[
         Annotated[
             str, text("path of a file with a key", lambda p: is_name(p) and len(p) <= _LONGEST_PATH)
         ]
-        | None
-    ) = None
+        | None,
+        says("file with the key that packets of other machines are checked by"),
+    ] = None
 
     def flight(self, folder: Path) -> PacketFlight:
         """Return where to listen."""

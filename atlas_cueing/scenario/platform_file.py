@@ -39,6 +39,7 @@ from .tables import (
     number,
     object_to,
     refuse,
+    says,
     whole,
 )
 
@@ -81,7 +82,7 @@ NAME = BeforeValidator(_name)
 class SphereTable(ScenarioTable):
     """`[sphere]`."""
 
-    radius_m: Length
+    radius_m: Annotated[Length, says("radius of the sphere")]
 
 
 class WheelTable(ScenarioTable):
@@ -91,17 +92,29 @@ class WheelTable(ScenarioTable):
     last three keys describe two rows of rollers; loads need friction.
     """
 
-    contact: Direction
-    drive: Direction
-    radius_m: Length
-    roller_deg: Annotated[float, number(0.0, 80.0)] | None = None
-    inertia_kg_m2: Inertia | None = None
-    friction: Friction | None = None
-    stiffness_n_m: Stiffness | None = None
-    load_limit_n: Force | None = None
-    row_offset_m: Annotated[float, number(0.0, 10.0)] | None = None
-    roller_profile_radius_m: Annotated[float, number(0.0, 10.0)] | None = None
-    rollers_per_row: Annotated[int, whole(3, 1000)] | None = None
+    contact: Annotated[
+        Direction, says("direction of the contact from the centre of the sphere, in W")
+    ]
+    drive: Annotated[Direction, says("direction in which the wheel drives the sphere, in W")]
+    radius_m: Annotated[Length, says("radius of the wheel")]
+    roller_deg: Annotated[
+        Annotated[float, number(0.0, 80.0)] | None,
+        says("of a Mecanum wheel: angle between roller axis and rim"),
+    ] = None
+    inertia_kg_m2: Annotated[Inertia | None, says("inertia of the wheel about its axle")] = None
+    friction: Annotated[Friction | None, says("coefficient of friction at the contact")] = None
+    stiffness_n_m: Annotated[Stiffness | None, says("stiffness of contact and suspension")] = None
+    load_limit_n: Annotated[Force | None, says("largest normal force")] = None
+    row_offset_m: Annotated[
+        Annotated[float, number(0.0, 10.0)] | None,
+        says("of two rows of rollers: distance of a row from the middle"),
+    ] = None
+    roller_profile_radius_m: Annotated[
+        Annotated[float, number(0.0, 10.0)] | None, says("radius of a roller's profile")
+    ] = None
+    rollers_per_row: Annotated[Annotated[int, whole(3, 1000)] | None, says("rollers in a row")] = (
+        None
+    )
 
     @model_validator(mode="after")
     def _is_a_wheel(self) -> "WheelTable":
@@ -161,9 +174,9 @@ def _wheel(contact: Vec3, drive: Vec3, radius: float) -> OmniWheel:
 class WheelLimitsTable(ScenarioTable):
     """`[wheel_limits]`: one number for all wheels, kept as three of them, or one each."""
 
-    speed_rad_s: LimitsOfWheels
-    acceleration_rad_s2: LimitsOfWheels
-    jerk_rad_s3: LimitsOfWheels
+    speed_rad_s: Annotated[LimitsOfWheels, says("largest speed of a wheel")]
+    acceleration_rad_s2: Annotated[LimitsOfWheels, says("largest acceleration of a wheel")]
+    jerk_rad_s3: Annotated[LimitsOfWheels, says("largest jerk of a wheel")]
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,22 +194,26 @@ class StageLimitsTable(ScenarioTable):
     Travel is plus or minus from the centre.
     """
 
-    travel_m: Limits
-    speed_m_s: Limits
-    acceleration_m_s2: Limits
-    jerk_m_s3: Limits
+    travel_m: Annotated[Limits, says("travel to each side of the centre, along W")]
+    speed_m_s: Annotated[Limits, says("largest speed of the stage")]
+    acceleration_m_s2: Annotated[Limits, says("largest acceleration of the stage")]
+    jerk_m_s3: Annotated[Limits, says("largest jerk of the stage")]
 
 
 class RiderTable(ScenarioTable):
     """`[rider]`: where the head is, from the sphere centre, in S."""
 
-    head_m: Annotated[tuple[Finite, Finite, Finite], THREE] = (0.0, 0.0, 0.0)
+    head_m: Annotated[
+        tuple[Finite, Finite, Finite],
+        THREE,
+        says("rider's head from the centre of the sphere, in S"),
+    ] = (0.0, 0.0, 0.0)
 
 
 class Platform(ScenarioTable):
     """A platform file."""
 
-    name: Annotated[str, NAME]
+    name: Annotated[str, NAME, says("name of the platform")]
     sphere: SphereTable
     wheel: Annotated[tuple[WheelTable, ...], WHEELS]
     wheel_limits: WheelLimitsTable
@@ -234,6 +251,9 @@ class Platform(ScenarioTable):
         sphere = info.data.get("sphere")
         if sphere and any(norm(part.com_m) > sphere.radius_m for part in parts or ()):
             raise refuse(f"every com_m within the sphere, |com_m| <= {sphere.radius_m:g}")
+        names = [part.name for part in parts or () if part.name is not None]
+        if twice := sorted({name for name in names if names.count(name) > 1}):
+            raise object_to(f"two parts are called {twice[0]!r}, allowed: a name of its own each")
         missing = missing_keys(info.data.get("wheel", ()), info.data.get("support"))
         if parts and missing:
             raise object_to(f"with [[part]] there have to be {', '.join(missing)} too")

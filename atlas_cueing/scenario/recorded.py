@@ -15,6 +15,8 @@ from ..vehicles import Bounds, RecordedVehicle
 _UNIT = 1e-6  # how far the norm of a quaternion may be from 1; our own logs keep it to 1e-15
 # bytes unpacked; an hour at 120 Hz, and about as much again for the states
 MAX_RECORDING = 256 * 2**20
+# metadata of an imported flight that the logs of its rides have as well
+TOLD = ("origin", "map", "attitude", "rate", "force_at", "grid")
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,12 +44,8 @@ class RecordedFlight:
         Raises InputError when there is no such log, it is damaged or not one of ours, and as
         `recorded_vehicle`: it is input, and nothing was written.
         """
-        if not self.log.is_file():
-            raise InputError(
-                f"log {self.log}: {'not a regular file' if self.log.exists() else 'no such file'}"
-            )
         try:
-            return checked_vehicle(read_log(self.log, MAX_RECORDING))
+            return checked_vehicle(_read(self.log))
         except (InputError, LogError) as error:
             raise InputError(*(_named(line, self.log) for line in error.lines)) from error
 
@@ -67,12 +65,27 @@ class RecordedFlight:
         """Return the log, by its name."""
         return {self.log.name: self.log}
 
+    def told(self) -> dict[str, str]:
+        """Return where an imported flight is from, and what of it was made and not measured."""
+        metadata = _read(self.log).metadata
+        return {key: metadata[key] for key in TOLD if metadata.get(key)}
+
     def _measures(self) -> tuple[float, float]:
         try:
             found = self.log.stat()
         except (OSError, ValueError):
             return _measures(self, 0, 0)
         return _measures(self, found.st_mtime_ns, found.st_size)
+
+
+def _read(path: Path) -> Log:
+    """Read a recording. Raises InputError: it is input, and nothing was written."""
+    if not path.is_file():
+        raise InputError(f"log {path}: {'not a regular file' if path.exists() else 'no such file'}")
+    try:
+        return read_log(path, MAX_RECORDING)
+    except LogError as error:
+        raise InputError(*(_named(line, path) for line in error.lines)) from error
 
 
 @lru_cache(maxsize=16)  # a sweep asks once for each of its runs

@@ -7,7 +7,7 @@ from ..printable import is_name
 from .mistakes import Key
 from .recorded import RecordedFlight
 from .source_table import SourceTable
-from .tables import text
+from .tables import says, text
 
 _LONGEST_PATH = 4096  # characters
 _LOG = "path of a log (MCAP)"
@@ -24,8 +24,10 @@ class RecordedFlightTable(SourceTable):
     It may lie anywhere, for it is data, as a platform file is.
     """
 
-    source: Literal["recording"] = "recording"
-    log: Annotated[str, text(_LOG, _is_path_of_log)] | None = None
+    source: Annotated[Literal["recording"], says("plays a flight that was recorded")] = "recording"
+    log: Annotated[
+        Annotated[str, text(_LOG, _is_path_of_log)] | None, says("log with the flight")
+    ] = None
 
     @property
     def flown(self) -> str:

@@ -8,7 +8,7 @@ from ..rotation import Vec3, from_euler
 from ..vehicles import RigidBodyFlight
 from .mistakes import Key
 from .source_table import SourceTable
-from .tables import THREE, number
+from .tables import THREE, number, says
 
 DEFAULT_RATE_HZ = 120.0
 _Moment: TypeAlias = Annotated[float, number(0.0, 1e12, above=True)]
@@ -25,13 +25,28 @@ class RigidBodyTable(SourceTable):
     attitude_deg: roll, pitch and heading at the start.
     """
 
-    source: Literal["rigid_body"] = "rigid_body"
-    inertia_kg_m2: Annotated[tuple[_Moment, _Moment, _Moment], THREE] | None = None
-    initial_rate_deg_s: Annotated[tuple[_Rate, _Rate, _Rate], THREE] | None = None
-    attitude_deg: Annotated[tuple[_Angle, _Angle, _Angle], THREE] | None = None
-    seat_m: Annotated[tuple[_Arm, _Arm, _Arm], THREE] | None = None
-    free_fall: bool | None = None
-    rate_hz: Annotated[float, number(10.0, 1000.0)] | None = None
+    source: Annotated[Literal["rigid_body"], says("tumbles a rigid body without torque")] = (
+        "rigid_body"
+    )
+    inertia_kg_m2: Annotated[
+        Annotated[tuple[_Moment, _Moment, _Moment], THREE] | None,
+        says("principal moments about its forward, right and down axes"),
+    ] = None
+    initial_rate_deg_s: Annotated[
+        Annotated[tuple[_Rate, _Rate, _Rate], THREE] | None, says("body rates at the start")
+    ] = None
+    attitude_deg: Annotated[
+        Annotated[tuple[_Angle, _Angle, _Angle], THREE] | None,
+        says("roll, pitch and heading at the start"),
+    ] = None
+    seat_m: Annotated[
+        Annotated[tuple[_Arm, _Arm, _Arm], THREE] | None,
+        says("rider's head from the centre of gravity, axes B"),
+    ] = None
+    free_fall: Annotated[bool | None, says("false: held up against gravity")] = None
+    rate_hz: Annotated[Annotated[float, number(10.0, 1000.0)] | None, says("states a second")] = (
+        None
+    )
 
     def flight(self, folder: Path) -> RigidBodyFlight:
         """Return the body in SI."""

@@ -18,7 +18,7 @@ from ..vehicles.jsbsim.user_models import read_users
 from .cueing_table import TABLES, CueingTable
 from .mistakes import FileNamer, nearest
 from .platform_file import NAME, Platform, presets
-from .tables import ScenarioTable, number, object_to, refuse, text, whole
+from .tables import ScenarioTable, number, object_to, refuse, says, text, whole
 from .vehicle_table import VehicleTable
 
 # The other topics are what the run is evaluated from.
@@ -52,10 +52,13 @@ class PlatformChoice(ScenarioTable):
     folder.
     """
 
-    preset: Annotated[str, BeforeValidator(_known_preset)] | None = None
-    file: (
-        Annotated[str, text("path of a platform file, from the scenario's folder", is_name)] | None
-    ) = None
+    preset: Annotated[
+        Annotated[str, BeforeValidator(_known_preset)] | None, says("platform of the package")
+    ] = None
+    file: Annotated[
+        Annotated[str, text("path of a platform file, from the scenario's folder", is_name)] | None,
+        says("platform file of one's own"),
+    ] = None
 
 
 def _as_tuple(value: Any) -> Any:
@@ -67,9 +70,15 @@ def _as_tuple(value: Any) -> Any:
 class RecordingTable(ScenarioTable):
     """`[recording]`: ticks in one chunk of the log, and topics left out."""
 
-    chunk_ticks: Annotated[int, whole(1, MAX_CHUNK_TICKS)] = 512
+    chunk_ticks: Annotated[
+        int,
+        whole(1, MAX_CHUNK_TICKS),
+        says("ticks in one chunk of the log, which is what a killed run loses"),
+    ] = 512
     skip: Annotated[
-        tuple[Annotated[str, BeforeValidator(_dispensable)], ...], BeforeValidator(_as_tuple)
+        tuple[Annotated[str, BeforeValidator(_dispensable)], ...],
+        BeforeValidator(_as_tuple),
+        says("topics that are left out of the log"),
     ] = ()
 
 
@@ -85,9 +94,12 @@ class ScenarioFile(ScenarioTable):
     Validate it with `context={"folder": ...}`, where a user's files are looked for.
     """
 
-    name: Annotated[str, NAME]
-    description: Annotated[str, _SHORT] = ""
-    duration_s: Annotated[float, number(0.0, 86400.0, above=True)] | None = None
+    name: Annotated[str, NAME, says("name of the run, and of its log")]
+    description: Annotated[str, _SHORT, says("what it is for, in words")] = ""
+    duration_s: Annotated[
+        Annotated[float, number(0.0, 86400.0, above=True)] | None,
+        says("end of the flight, at the latest"),
+    ] = None
     vehicle: VehicleTable
     platform: PlatformChoice
     cueing: CueingTable = TABLES[DEFAULT_METHOD]()

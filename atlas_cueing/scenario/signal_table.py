@@ -12,7 +12,7 @@ from ..vehicles import Signal, SignalFlight
 from ..vehicles.signal_shapes import DEFAULT_RAMP, FORCE_AXES, RATE_AXES, SHAPES, Shape, SignalAxis
 from .mistakes import Key
 from .source_table import SourceTable, tables
-from .tables import ScenarioTable, number, object_to, refuse
+from .tables import ScenarioTable, number, object_to, refuse, says
 
 Time: TypeAlias = Annotated[float, number(0.0, 86400.0)]  # s; a day
 Frequency: TypeAlias = Annotated[float, number(0.001, 1000.0)]
@@ -39,15 +39,27 @@ class SignalTable(ScenarioTable):
     Which keys an axis and a shape need, `signal_rules` checks.
     """
 
-    axis: Annotated[SignalAxis, _one_of(RATE_AXES + FORCE_AXES)]
-    shape: Annotated[Shape, _one_of(SHAPES)]
-    amplitude_deg_s: Annotated[float, number(-2500.0, 2500.0)] | None = None
-    amplitude_m_s2: Annotated[float, number(-400.0, 400.0)] | None = None
-    time_s: Time = 0.0
-    duration_s: Annotated[float, number(0.0, 86400.0, above=True)]
-    ramp_s: Annotated[float, number(0.0, 86400.0, above=True)] = DEFAULT_RAMP
-    frequency_rad_s: Frequency | None = None
-    end_frequency_rad_s: Frequency | None = None
+    axis: Annotated[
+        SignalAxis,
+        _one_of(RATE_AXES + FORCE_AXES),
+        says("rate or force that the signal is added to, axes B"),
+    ]
+    shape: Annotated[Shape, _one_of(SHAPES), says("form of the signal over time")]
+    amplitude_deg_s: Annotated[
+        Annotated[float, number(-2500.0, 2500.0)] | None, says("largest value of a rate")
+    ] = None
+    amplitude_m_s2: Annotated[
+        Annotated[float, number(-400.0, 400.0)] | None, says("largest value of a force")
+    ] = None
+    time_s: Annotated[Time, says("when it begins")] = 0.0
+    duration_s: Annotated[float, number(0.0, 86400.0, above=True), says("how long it lasts")]
+    ramp_s: Annotated[float, number(0.0, 86400.0, above=True), says("how long its edges take")] = (
+        DEFAULT_RAMP
+    )
+    frequency_rad_s: Annotated[
+        Frequency | None, says("frequency of a sine, first one of a sweep")
+    ] = None
+    end_frequency_rad_s: Annotated[Frequency | None, says("last frequency of a sweep")] = None
 
     @model_validator(mode="after")
     def _fits(self) -> "SignalTable":
@@ -99,10 +111,14 @@ def signal_rules(signal: dict[str, Any]) -> list[tuple[str, str]]:
 class SignalFlightTable(SourceTable):
     """`[vehicle]` of test signals, at least one."""
 
-    source: Literal["signal"] = "signal"
-    rate_hz: Annotated[float, number(10.0, 1000.0)] | None = None
+    source: Annotated[Literal["signal"], says("flies signals that are made up")] = "signal"
+    rate_hz: Annotated[Annotated[float, number(10.0, 1000.0)] | None, says("states a second")] = (
+        None
+    )
     signal: Annotated[tuple[SignalTable, ...], tables("signal")] | None = None
-    force_follows_attitude: bool | None = None
+    force_follows_attitude: Annotated[
+        bool | None, says("whether gravity turns with the attitude that the rates make")
+    ] = None
 
     def flight(self, folder: Path) -> SignalFlight:
         """Return the signals in SI."""

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from math import isfinite
 from typing import Annotated, Any, TypeAlias, get_args
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 from pydantic_core import PydanticCustomError
 
 _LARGEST_SHOWN = 1e15
@@ -28,6 +28,11 @@ def refuse(allowed: str) -> PydanticCustomError:
 def object_to(reason: str) -> PydanticCustomError:
     """Make the error of a validator whose text says what is wrong and what is allowed."""
     return PydanticCustomError("refused", "{reason}", {"reason": reason})
+
+
+def says(meaning: str) -> Any:
+    """Give a key its line of meaning, beside its declaration, in its Annotated type."""
+    return Field(description=meaning)
 
 
 def number(lower: float, upper: float, *, above: bool = False) -> BeforeValidator:

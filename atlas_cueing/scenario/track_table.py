@@ -9,7 +9,7 @@ from pydantic import BeforeValidator
 from ..vehicles import Car, TrackFlight
 from .mistakes import Key
 from .source_table import MOST_TABLES, SourceTable
-from .tables import THREE, number, refuse, whole
+from .tables import THREE, number, refuse, says, whole
 
 _Place: TypeAlias = Annotated[float, number(-1e5, 1e5)]
 _Point: TypeAlias = Annotated[tuple[_Place, _Place, _Place], THREE]
@@ -33,17 +33,32 @@ class TrackTable(SourceTable):
     the track, forward, right, down.
     """
 
-    source: Literal["track"] = "track"
-    points_m: Annotated[tuple[_Point, ...], BeforeValidator(_list)] | None = None
-    bank_deg: Annotated[tuple[_Bank, ...], BeforeValidator(_list)] | None = None
-    closed: bool | None = None
-    laps: Annotated[int, whole(1, 1000)] | None = None
-    speed_m_s: _Speed | None = None
-    friction: Annotated[float, number(0.0, 1.0)] | None = None
-    drag_per_m: Annotated[float, number(0.0, 1.0)] | None = None
-    lift_speed_m_s: _Speed | None = None
-    head_m: Annotated[tuple[_Place, _Place, _Place], THREE] | None = None
-    rate_hz: Annotated[float, number(10.0, 1000.0)] | None = None
+    source: Annotated[Literal["track"], says("rides along a track of points")] = "track"
+    points_m: Annotated[
+        Annotated[tuple[_Point, ...], BeforeValidator(_list)] | None,
+        says("points of the track: x forward, y left, z up"),
+    ] = None
+    bank_deg: Annotated[
+        Annotated[tuple[_Bank, ...], BeforeValidator(_list)] | None,
+        says("bank at each point, right side down; left out: no side force"),
+    ] = None
+    closed: Annotated[bool | None, says("whether the last point leads to the first")] = None
+    laps: Annotated[Annotated[int, whole(1, 1000)] | None, says("rounds of a closed track")] = None
+    speed_m_s: Annotated[_Speed | None, says("speed at the first point")] = None
+    friction: Annotated[
+        Annotated[float, number(0.0, 1.0)] | None, says("coefficient of rolling friction")
+    ] = None
+    drag_per_m: Annotated[
+        Annotated[float, number(0.0, 1.0)] | None, says("drag over mass and squared speed, 1/m")
+    ] = None
+    lift_speed_m_s: Annotated[_Speed | None, says("least speed, as on a lift hill")] = None
+    head_m: Annotated[
+        Annotated[tuple[_Place, _Place, _Place], THREE] | None,
+        says("rider's head from the track, axes B"),
+    ] = None
+    rate_hz: Annotated[Annotated[float, number(10.0, 1000.0)] | None, says("states a second")] = (
+        None
+    )
 
     def flight(self, folder: Path) -> TrackFlight:
         """Return the track in SI."""

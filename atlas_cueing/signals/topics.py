@@ -17,11 +17,15 @@ _VECTORS = {"w": "rad_s", "f": "m_s2", "alpha": "rad_s2", "p": "m", "v": "m_s", 
 
 @dataclass(frozen=True, slots=True)
 class Topic:
-    """A channel of flat double fields."""
+    """A channel of flat double fields.
+
+    frame: axes of its vectors; empty where it has none.
+    """
 
     name: str
     schema: str
     fields: tuple[str, ...]
+    frame: str = ""
 
 
 def _fields(quaternion: str, vectors: str) -> tuple[str, ...]:
@@ -33,19 +37,20 @@ def _fields(quaternion: str, vectors: str) -> tuple[str, ...]:
 
 
 TOPICS = (
-    Topic("/vehicle", "atlas.Vehicle", _fields("q_nb", "w f")),
-    Topic("/cue", "atlas.Cue", _fields("q_ws", "w p v a")),
+    Topic("/vehicle", "atlas.Vehicle", _fields("q_nb", "w f"), "B"),
+    Topic("/cue", "atlas.Cue", _fields("q_ws", "w p v a"), "W"),
     Topic(
         "/motion",
         "atlas.Motion",
         (*_fields("q_ws", "w alpha p v a"), "wheels_limited", "stage_limited"),
+        "W",
     ),
     Topic(
         "/wheels",
         "atlas.Wheels",
         ("time_s", "w1_rad_s", "w2_rad_s", "w3_rad_s", "a1_rad_s2", "a2_rad_s2", "a3_rad_s2"),
     ),
-    Topic("/felt", "atlas.Felt", (*_fields("", "f w"), "direction_error_rad")),
+    Topic("/felt", "atlas.Felt", (*_fields("", "f w"), "direction_error_rad"), "S (FRD)"),
 )
 
 

@@ -57,3 +57,10 @@ class Flight(Protocol):
         read where it lies.
         """
         return {}
+
+    def told(self) -> dict[str, str]:
+        """Return what a log of this flight says of its origin, such as an attitude that was made.
+
+        Nothing unless a source says otherwise. Raises InputError for a file that cannot be read.
+        """
+        return {}

@@ -9,6 +9,9 @@ from atlas_cueing.cueing import METHODS
 from atlas_cueing.scenario import load_platform, load_scenario
 from atlas_cueing.scenario.cueing_table import TABLES
 from atlas_cueing.scenario.keys import KeyEntry, keys
+from atlas_cueing.scenario.platform_file import Platform
+from atlas_cueing.scenario.scenario import ScenarioFile
+from atlas_cueing.scenario.tables import ScenarioTable, tables_in
 from atlas_cueing.scenario.vehicle_table import SOURCES
 
 from .conftest import Command
@@ -52,6 +55,30 @@ def test_what_is_listed_is_what_is_declared() -> None:
     assert stiffness.unit == "N/m"
 
 
+def test_every_key_has_a_meaning_of_its_own() -> None:
+    """And not the first line of its table, which says nothing of the key."""
+    about = {str(table.__doc__).partition("\n")[0].rstrip(".") for table in inner_tables()} - {""}
+    assert "`[sphere]`" in about
+    for entry in keys():
+        assert entry.meaning, entry.key
+        assert entry.meaning not in about, entry.key
+
+
+def inner_tables() -> list[type[ScenarioTable]]:
+    """Every table of the files."""
+    tables: list[type[ScenarioTable]] = [*SOURCES.values(), Platform, ScenarioFile]
+    for table in tables:
+        tables += [t for f in table.model_fields.values() for t in tables_in(f.annotation)]
+    return tables
+
+
+def test_a_key_of_another_unit_and_a_word() -> None:
+    (drag,) = keys("vehicle.drag_per_m")
+    assert drag.unit == "1/m"
+    (report,) = keys("platform.traction.report")
+    assert report.allowed == "'remark' or 'finding'"
+
+
 @pytest.mark.parametrize("entry", keys("cueing."), ids=lambda entry: f"{entry.key} {entry.of}")
 @pytest.mark.usefixtures("command")
 def test_a_default_is_accepted(entry: KeyEntry) -> None:
@@ -80,6 +107,9 @@ def test_a_new_scenario_flies_with_every_comment_taken_out(command: Command) -> 
     again = command("new", "mine")
     assert (again.status, Path("mine.toml").read_text()) == (2, text)
     assert command("new", "../mine").status == 2
+    assert command("new", "yours.toml").status == 0
+    assert {path.name for path in Path().glob("yours*")} == {"yours.toml"}
+    assert 'name = "yours"' in Path("yours.toml").read_text()
 
 
 def test_lists(command: Command) -> None:
@@ -88,3 +118,7 @@ def test_lists(command: Command) -> None:
     assert "fcs/aileron-cmd-norm (RW)" in command("list", "properties", "f16").out.splitlines()
     assert command("list", "properties", "nothing").status == 2
     assert command("list", "engines").status == 2
+    assert "of which aircraft? as: atlas-cueing list properties f16" in (
+        command("list", "properties").err
+    )
+    assert "allowed: list aircraft, without 'f16'" in command("list", "aircraft", "f16").err

@@ -116,3 +116,47 @@ def test_a_missing_decoder_names_the_extra(
     ended = command("import", name, "-o", "f.mcap", "--map", map_name)
     assert ended.status == 2
     assert "pip install 'atlas_cueing[logs]'" in ended.err
+
+
+def test_maps_for_programs(command: Command) -> None:
+    maps = json.loads(command("import", "--list-maps", "--json").out)["maps"]
+    (csv_map,) = [each for each in maps if each["name"] == "csv"]
+    assert csv_map["format"] == "csv"
+    assert Path(csv_map["file"]).is_file()
+
+
+def test_an_attitude_that_was_made_is_marked_in_every_ride(
+    command: Command, tmp_path: Path
+) -> None:
+    lines = plain_csv(tmp_path / "a.csv", FLOWN).read_text().splitlines()
+    (tmp_path / "a.csv").write_text("\n".join(",".join(line.split(",")[:7]) for line in lines))
+    assert command("import", "a.csv", "-o", "flight.mcap", "--map", "csv").status == 0
+    (tmp_path / "again.toml").write_text(RECORDED)
+    assert command("run", "again.toml").status == 0
+    words = ("--set", "platform.preset=atlas-2.9m", "-o", "cued.mcap")
+    assert command("recue", "flight.mcap", *words).status == 0
+    assert command("recue", "again.mcap", "-o", "twice.mcap").status == 0
+    for log in ("again.mcap", "cued.mcap", "twice.mcap"):
+        told = read_log(tmp_path / log).metadata
+        assert told["attitude"].startswith("complementary filter of 10 s"), log
+        assert told["origin"] == "a.csv"
+        reviewed = command("review", log)
+        assert reviewed.status == 0
+        assert "the vehicle's attitude was not measured: complementary filter" in reviewed.out
+    assert command("run", "s.toml").status == 0
+    assert "attitude" not in read_log(tmp_path / "short.mcap").metadata
+
+
+@pytest.mark.parametrize(
+    ("signs", "doubted"), [((1.0, 1.0, 1.0), False), ((1.0, -1.0, -1.0), True)]
+)
+def test_a_sensor_upside_down_is_suspected(
+    command: Command, tmp_path: Path, signs: tuple[float, float, float], doubted: bool
+) -> None:
+    turned = np.array(signs)
+    rows = np.column_stack([FLOWN.time, FLOWN.f_B * turned, FLOWN.w_B * turned])
+    lines = ["time_s,fx,fy,fz,wx,wy,wz", *(",".join(map(repr, row)) for row in rows.tolist())]
+    (tmp_path / "a.csv").write_text("\n".join(lines))
+    ended = command("import", "a.csv", "-o", "f.mcap", "--map", "csv")
+    assert ended.status == 0
+    assert ("or is the sensor mounted another way?" in ended.out) == doubted

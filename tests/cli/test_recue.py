@@ -31,8 +31,12 @@ def test_without_settings_nothing_changes(command: Command, log: Path) -> None:
 
 @pytest.mark.usefixtures("log")
 def test_bad_usage_writes_nothing(command: Command, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("time_s,fx\n0,1\n")
+    (tmp_path / "cut.mcap").write_bytes((tmp_path / "short.mcap").read_bytes()[:-3000])
     for arguments, message in (
         (["missing.mcap", "-o", "new.mcap"], "no such file"),
+        (["a.csv", "-o", "new.mcap"], "a.csv: this is no MCAP file"),
+        (["cut.mcap", "-o", "new.mcap"], "atlas-cueing recover cut.mcap"),
         (["short.mcap", "-o", "short.mcap", "--force"], "is a file that is read"),
         (["short.mcap", "-o", "s.toml"], "exists already"),
         (
@@ -56,7 +60,12 @@ def test_bad_usage_writes_nothing(command: Command, tmp_path: Path) -> None:
         assert (ended.status, ended.out) == (2, "")
         assert message in ended.err
         assert "Traceback" not in ended.err
-    assert {path.name for path in tmp_path.iterdir()} == {"s.toml", "short.mcap"}
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "s.toml",
+        "short.mcap",
+        "a.csv",
+        "cut.mcap",
+    }
 
 
 def test_every_mistake_is_a_line_of_its_own(command: Command, log: Path) -> None:

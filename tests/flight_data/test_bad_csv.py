@@ -80,6 +80,79 @@ def test_a_short_line_and_a_bad_header(tmp_path: Path) -> None:
             import_flight(path, load_map("csv"))
 
 
+def test_a_line_longer_than_the_header(tmp_path: Path) -> None:
+    lines = lines_of(tmp_path)
+    count = len(lines[0].split(","))
+    (tmp_path / "a.csv").write_text("\n".join([*lines[:30], f"{lines[30]},7", *lines[31:]]))
+    told = rf"a\.csv: line 31: {count + 1} columns, allowed: the {count} of the header; are its"
+    with pytest.raises(InputError, match=told):
+        import_flight(tmp_path / "a.csv", load_map("csv"))
+    (tmp_path / "a.csv").write_text("\n".join([lines[0], *(f"{line}, ," for line in lines[1:])]))
+    found = import_flight(tmp_path / "a.csv", load_map("csv"))
+    assert np.array_equal(found.flights[0].f_B, FLOWN.f_B), "delimiters at the end are no columns"
+
+
+@pytest.mark.parametrize("delimiter", [";", "\t"])
+def test_decimal_commas(tmp_path: Path, delimiter: str) -> None:
+    lines = lines_of(tmp_path)
+    german = [line.replace(",", delimiter).replace(".", ",") for line in lines]
+    (tmp_path / "a.csv").write_text("\n".join(german))
+    found = import_flight(tmp_path / "a.csv", load_map("csv", ["csv.decimal=','"]))
+    assert np.array_equal(found.flights[0].f_B, FLOWN.f_B)
+    assert np.array_equal(found.flights[0].q_NB, imported_as_it_is(tmp_path))
+    with pytest.raises(InputError, match=r"line 2, column 'time_s' = '0,0', .*csv\.decimal"):
+        import_flight(tmp_path / "g.csv", load_map("csv"))
+    thousands = german[10].split(delimiter)
+    thousands[1] = "1.234,5"
+    (tmp_path / "a.csv").write_text("\n".join([*german[:10], delimiter.join(thousands)]))
+    with pytest.raises(InputError, match=r"line 11, column 'fx' = '1\.234,5'"):
+        import_flight(tmp_path / "a.csv", load_map("csv", ["csv.decimal=,"]))
+    with pytest.raises(ScenarioError, match="delimiter and decimal are both ','"):
+        load_map("csv", ["csv.decimal=,", "csv.delimiter=,"])
+
+
+def imported_as_it_is(folder: Path) -> np.ndarray:
+    """Attitude of the same file with points; the one with commas is kept as g.csv."""
+    (folder / "a.csv").rename(folder / "g.csv")
+    plain_csv(folder / "a.csv", FLOWN)
+    return import_flight(folder / "a.csv", load_map("csv")).flights[0].q_NB
+
+
+def test_lines_that_end_with_cr_alone(tmp_path: Path) -> None:
+    lines = lines_of(tmp_path)
+    for end in ("\r", ""):
+        (tmp_path / "a.csv").write_bytes(("\r".join(lines) + end).encode())
+        found = import_flight(tmp_path / "a.csv", load_map("csv"))
+        assert np.array_equal(found.flights[0].f_B, FLOWN.f_B)
+    lines[20] = cell(lines[20], 2, "abc")
+    (tmp_path / "a.csv").write_bytes("\r".join(lines).encode())
+    with pytest.raises(InputError, match="line 21, column 'fy' = 'abc'"):
+        import_flight(tmp_path / "a.csv", load_map("csv"))
+
+
+@pytest.mark.parametrize(
+    ("line", "text"), [(0, 'time_s\rx,"fx"'), (20, '"0.19\r",1,2'), (20, f'"{"7" * 200_000}"')]
+)
+def test_what_csv_itself_refuses(tmp_path: Path, line: int, text: str) -> None:
+    lines = lines_of(tmp_path)
+    lines[line] = text
+    (tmp_path / "a.csv").write_bytes("\n".join(lines).encode())
+    with pytest.raises(InputError, match=rf"a\.csv: line {line + 1}: "):
+        import_flight(tmp_path / "a.csv", load_map("csv"))
+
+
+def test_some_columns_of_an_attitude_are_not_none(tmp_path: Path) -> None:
+    lines = lines_of(tmp_path)
+    lines[0] = lines[0].replace("qy", "other")
+    (tmp_path / "a.csv").write_text("\n".join(lines))
+    told = (
+        r"has 'qw', 'qx', 'qz' of attitude\.columns of the map, but not 'qy' or 'q_nb_y', allowed:"
+        " all 4 of them, or none"
+    )
+    with pytest.raises(InputError, match=told):
+        import_flight(tmp_path / "a.csv", load_map("csv"))
+
+
 @pytest.mark.parametrize("delimiter", [",", ";", "\t"])
 def test_how_it_may_be_written(tmp_path: Path, delimiter: str) -> None:
     """A mark before the text, comments, blank lines, quotes, lines above the header, CR LF."""

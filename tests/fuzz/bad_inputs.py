@@ -1,6 +1,6 @@
 """All bad inputs that `tools/bad_inputs` hands to the command, by kind."""
 
-from . import bad_files, bad_logs, bad_models
+from . import bad_files, bad_logs, bad_models, bad_recordings
 from .trying import BadInput
 
 
@@ -17,6 +17,7 @@ def bad_inputs(log: bytes) -> dict[str, list[BadInput]]:
         "paths": bad_files.PATHS,
         "scripts": bad_models.SCRIPTS,
         "models": bad_models.MODELS,
+        "recordings": bad_recordings.RECORDINGS,
         "logs": bad_logs.bad_logs(log),
         "no logs": bad_logs.NOT_THERE,
         "outputs": bad_logs.OUTPUTS,

@@ -62,7 +62,14 @@ READERS: dict[str, Callable[[str], tuple[str, ...]]] = {
     "compare": lambda log: ("compare", "good.mcap", log),
     "recue": lambda log: ("recue", log, "-o", "new.mcap"),
     "recover": lambda log: ("recover", log, "-o", "new.mcap"),
+    "export": lambda log: ("export", log, "-o", "new.csv"),
 }
+_INPUT = ("recue", "export")  # to whom a log is input: a bad one is refused, as bad usage is
+
+
+def _refusal(command: str) -> int:
+    """Exit status of a command for a log that is damaged."""
+    return 2 if command in _INPUT else 1
 
 
 def bad_logs(log: bytes) -> list[BadInput]:
@@ -76,7 +83,7 @@ def bad_logs(log: bytes) -> list[BadInput]:
             f"{command}: {name}",
             words("bad.mcap"),
             {"bad.mcap": content, "good.mcap": Good()},
-            0 if command == "recover" and name in whole else 1,
+            0 if command == "recover" and name in whole else _refusal(command),
             limits=LOGS,
         )
         for command, words in READERS.items()
@@ -89,7 +96,7 @@ NOT_THERE = [
         f"{command}: {name}",
         words(path),
         {**files, "good.mcap": Good()},
-        1 if "GB" in name else 2,
+        _refusal(command) if "GB" in name else 2,
         limits=LOGS,
     )
     for command, words in READERS.items()
@@ -99,7 +106,7 @@ NOT_THERE = [
         f"{command}: 10 GB behind a header",
         words("bad.mcap"),
         {"bad.mcap": Hole(10 * _GIB, _MAGIC + _HEADER), "good.mcap": Good()},
-        1,
+        _refusal(command),
         limits=LOGS,
     )
     for command, words in READERS.items()

@@ -13,11 +13,14 @@ from tempfile import TemporaryDirectory
 from typing import TypeAlias
 
 import numpy as np
+from flight_data import recorders
+from flight_data.truth import plain_csv, truth
 from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st
 from recording.layouts import LAYOUTS, rewritten
 
 from atlas_cueing.errors import AtlasError
+from atlas_cueing.flight_data import import_flight, known_maps, load_map
 from atlas_cueing.live.control.command import Command
 from atlas_cueing.live.output import setpoint
 from atlas_cueing.recording import McapRecorder, read_log
@@ -265,6 +268,30 @@ def _recover(data: bytes, folder: Path) -> None:
     rewrite(salvage(_file(data, folder, "x.mcap"), LARGEST_CONTENT), folder / "y.mcap", {})
 
 
+def _recorded() -> dict[str, bytes]:
+    """A good file of each format that `import` takes, by the name of its map."""
+    flown = truth(np.arange(150) / 100.0, 1.0)
+    with TemporaryDirectory() as name:
+        folder = Path(name)
+        bag = recorders.ros_bag(folder / "bag", flown, "MCAP")
+        return {
+            "csv": plain_csv(folder / "a.csv", flown).read_bytes(),
+            "px4": recorders.ulog(folder / "a.ulg", flown).read_bytes(),
+            "ardupilot": recorders.dataflash(folder / "a.bin", flown).read_bytes(),
+            "ros-imu": next(bag.glob("*.mcap")).read_bytes(),
+        }
+
+
+def _importing(map_name: str, ending: str) -> Take:
+    def take(data: bytes, folder: Path) -> object:
+        return import_flight(_file(data, folder, f"x.{ending}"), load_map(map_name), split=True)
+
+    return take
+
+
+_RECORDED = _recorded()
+_CELLS = (b",", b";", b"\n", b"\r", b'"', b"nan", b"1e999", b"-1", b"0,5", b"\xff", b"#", b" ")
+_FRAMES = (b"\xa3\x95", b"FMT", b"IMU", b"D", b"F", b"\xff\xff", b"\0\0", b"\x89MCAP0\r\n")
 _PACKETS = spoilt(
     [bytes([0, 0, 0, 24]) + bytes(PACKET_BYTES - 4)],
     (b"\x7f\xc0\0\0", b"\x7f\xf0\0\0", b"\xff" * 8, b"\0\0\0\x18"),
@@ -281,6 +308,14 @@ TARGETS: dict[str, Target] = {
     ),
     "reader": Target(_LOGS, lambda data, at: read_log(_file(data, at, "x.mcap"), LARGEST_CONTENT)),
     "salvage": Target(_LOGS, _recover),
+    "map": Target(
+        spoilt([path.read_bytes() for path in known_maps().values()], _WORDS),
+        lambda data, at: load_map(str(_file(data, at, "m.toml"))),
+    ),
+    "csv": Target(spoilt([_RECORDED["csv"]], _CELLS), _importing("csv", "csv")),
+    "ulog": Target(spoilt([_RECORDED["px4"]], _FRAMES), _importing("px4", "ulg")),
+    "dataflash": Target(spoilt([_RECORDED["ardupilot"]], _FRAMES), _importing("ardupilot", "bin")),
+    "ros": Target(spoilt([_RECORDED["ros-imu"]], _FRAMES), _importing("ros-imu", "mcap")),
     "flightgear": Target(_PACKETS, lambda data, _: decode(data, 0.0, Bounds())),
     "setpoint": Target(
         st.one_of(_POINTS, _POINTS.map(_with_check)), lambda data, _: setpoint.decode(data)

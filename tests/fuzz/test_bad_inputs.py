@@ -15,7 +15,7 @@ import zstandard
 
 from atlas_cueing.cli import main
 
-from . import bad_files, bad_logs, trying
+from . import bad_files, bad_logs, bad_recordings, trying
 from .bad_files import SCENARIO
 from .bad_inputs import bad_inputs
 from .trying import BadInput, Ended, attempt, good_log, missing, objections, prepare
@@ -46,6 +46,7 @@ def at_most(seconds: int) -> Iterator[None]:
 
 
 HERE = [*bad_files.TEXTS, *bad_files.OVERRIDES, *bad_files.PLATFORMS, *bad_files.PATHS]
+HERE += bad_recordings.RECORDINGS
 # tests/recording/test_endless.py looks at what has GBs
 HERE += [bad for bad in bad_logs.NOT_THERE if "GB" not in bad.name]
 

@@ -5,6 +5,7 @@ import pytest
 from scipy.optimize import nnls
 
 from atlas_cueing.loads import LoadModel, Support
+from atlas_cueing.loads.exact_push import pushing_forces
 from atlas_cueing.loads.normal_forces import bilateral_forces, normal_forces
 
 from .models import point_mass, ring, unit
@@ -92,3 +93,52 @@ def test_published_share_of_passive_wheels() -> None:
         )
         forces, _ = normal_forces(model, np.array([[0.0, 0.0, 490.0 * 9.80665]]))
         assert forces[0, 0] == pytest.approx(expected, abs=0.6)
+
+
+def random_contacts(rng: np.random.Generator) -> LoadModel:
+    """Three wheels below, and up to twelve supports anywhere, soft and hard, loaded or not."""
+    supports = tuple(
+        Support(
+            unit(rng.normal(size=3)), 10.0 ** rng.uniform(-2, 1), rng.choice([0.0, 100.0, 400.0])
+        )
+        for _ in range(rng.integers(1, 13))
+    )
+    return LoadModel("x", 1.0, point_mass(), ring(3, 0.7), supports=supports)
+
+
+def test_a_push_that_balances_is_found_whenever_there_is_one() -> None:
+    """3000 random states; nnls says of each whether the contacts can push so at all."""
+    rng = np.random.default_rng(11)
+    held, missed, invented = 0, 0, 0
+    for _ in range(100):
+        model = random_contacts(rng)
+        need = rng.normal(size=(30, 3)) * 1500.0
+        forces, _ = normal_forces(model, need)
+        left = np.array([nnls(model.all_contacts.T, -each)[1] for each in need])
+        balances = left < 1e-6 * np.abs(need).max(axis=1)
+        pushes = np.all(forces >= 0.0, axis=1)
+        held += int(balances.sum())
+        missed += int(np.sum(balances & ~pushes))
+        invented += int(np.sum(~balances & pushes))
+        np.testing.assert_allclose(forces @ model.all_contacts, -need, atol=1e-4)
+    assert 1000 < held < 3000  # both kinds are there
+    assert (missed, invented) == (0, 0)
+
+
+def test_pushes_of_few_contacts_have_the_least_energy() -> None:
+    """At the least energy of n >= 0 with U^T n = -need: (n - n0) / k = u . d, or less where 0."""
+    rng = np.random.default_rng(12)
+    found = 0
+    for _ in range(150):
+        model, need = random_contacts(rng), rng.normal(size=3) * 1500.0
+        n = pushing_forces(model, need)
+        if n is None:
+            continue
+        strain = (n - model.unloaded) / model.stiffness
+        pushing = n > 0.0
+        d = np.linalg.lstsq(model.all_contacts[pushing], strain[pushing], rcond=None)[0]
+        np.testing.assert_allclose(model.all_contacts[pushing] @ d, strain[pushing], atol=1e-3)
+        if pushing.sum() >= 3:
+            assert np.all(strain[~pushing] >= model.all_contacts[~pushing] @ d - 1e-3)
+            found += 1
+    assert found > 60

@@ -7,7 +7,7 @@ import pytest
 from live.logs import largest_file
 
 from atlas_cueing.cueing import CAUSAL_METHODS
-from atlas_cueing.errors import InputError, LogError, OutputError
+from atlas_cueing.errors import InputError, OutputError
 from atlas_cueing.recording import read_log
 from atlas_cueing.review import cue_again, review_log
 from atlas_cueing.scenario.cueing_table import TABLES
@@ -133,7 +133,7 @@ def test_a_log_that_cannot_be_cued(flight: Path, tmp_path: Path) -> None:
     )
     with pytest.raises(InputError, match=r"the log's scenario\.toml: TOML: not valid"):
         cue_again(without, (), tmp_path / "new.mcap")
-    with pytest.raises(LogError):
+    with pytest.raises(InputError):
         cue_again(
             tmp_path / "s.toml" if (tmp_path / "s.toml").exists() else _text(tmp_path),
             (),

@@ -2,15 +2,17 @@
 
 import copy
 from math import cos, radians
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import tomli_w
 from pydantic import ValidationError
 
-from atlas_cueing.errors import InputError
+from atlas_cueing.errors import InputError, ScenarioError
 from atlas_cueing.loads import Preload, Support
-from atlas_cueing.scenario import Platform, presets
+from atlas_cueing.scenario import Platform, load_platform, presets
 from atlas_cueing.scenario.reading import read_toml
 
 KINEMATIC = ("name", "sphere", "wheel", "wheel_limits", "stage_limits", "rider")
@@ -128,3 +130,23 @@ def test_contacts_that_cannot_carry() -> None:
         ValidationError, match="contacts of wheels and supports are not independent"
     ):
         Platform.model_validate(data)
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"name": "shell"}, "part: two parts are called 'shell', allowed: a name of its own each"),
+        ({"com_m": [9.0, 0.0, 0.0]}, "part: allowed: every com_m within the sphere"),
+        ({"mass": 1.0}, "part.1.mass = 1.0: unknown key"),
+    ],
+)
+def test_a_wrong_part_is_told_without_the_whole_table(
+    tmp_path: Path, change: dict[str, Any], told: str
+) -> None:
+    data = good()
+    data["part"][1] |= change
+    (tmp_path / "p.toml").write_text(tomli_w.dumps(data))
+    with pytest.raises(ScenarioError) as caught:
+        load_platform(str(tmp_path / "p.toml"))
+    assert told in str(caught.value)
+    assert "{" not in str(caught.value)

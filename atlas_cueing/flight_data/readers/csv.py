@@ -7,9 +7,10 @@ file.
 import csv
 from array import array
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,7 @@ from numpy.typing import NDArray
 from ...errors import InputError
 from ...rotations import Array
 from ..flight_map import FlightMap
-from ..samples import Part, Progress, Samples, chosen, missing, wanted
+from ..samples import Part, Progress, Samples, Wanted, chosen, missing, wanted
 
 _DELIMITERS = (",", ";", "\t", "|", " ")
 _LONGEST_LINE = 1 << 20  # characters
@@ -36,17 +37,30 @@ def read_csv(path: Path, flight_map: FlightMap, progress: Progress) -> dict[Part
     names = [_column(path, "time.column", flight_map.time.column, header)]
     places: dict[Part, tuple[str, ...]] = {}
     for part in parts:
-        found = [chosen(column, header) for column in part.columns]
-        if part.optional and None in found:
+        if part.optional and _has_none(path, part, header):
             continue
         places[part.part] = tuple(
             _column(path, f"{part.part}.columns", column, header) for column in part.columns
         )
     names += [name for columns in places.values() for name in columns if name not in names]
-    rows, table = _numbers(path, flight_map.csv.header_line, delimiter, header, names, progress)
+    written = _Written(header, delimiter, flight_map.csv.decimal, flight_map.csv.header_line)
+    rows, table = _numbers(path, written, names, progress)
     if not len(rows):
         raise InputError(f"{path}: no numbers below the header (line {flight_map.csv.header_line})")
     return {part: _samples(columns, names, rows, table) for part, columns in places.items()}
+
+
+def _has_none(path: Path, part: Wanted, header: list[str]) -> bool:
+    """Whether the file has no column of a part. Raises InputError where it has only some."""
+    found = [chosen(column, header) for column in part.columns]
+    there = [name for name in found if name is not None]
+    if there and None in found:
+        lacking = " or ".join(map(repr, part.columns[found.index(None)]))
+        raise InputError(
+            f"{path}: has {', '.join(map(repr, there))} of {part.part}.columns of the map, but not"
+            f" {lacking}, allowed: all {len(found)} of them, or none"
+        )
+    return not there
 
 
 def _samples(
@@ -62,8 +76,9 @@ def _header(path: Path, flight_map: FlightMap) -> tuple[list[str], str]:
     number = flight_map.csv.header_line
     for line, text in _lines(path, lambda _: None):
         if line == number:
-            delimiter = flight_map.csv.delimiter or max(_DELIMITERS, key=text.count)
-            names = [name.strip() for name in next(csv.reader([text], delimiter=delimiter))]
+            parting = [mark for mark in _DELIMITERS if mark != flight_map.csv.decimal]
+            delimiter = flight_map.csv.delimiter or max(parting, key=text.count)
+            names = [name.strip() for name in _cells(path, line, text, delimiter)]
             return names, delimiter
     raise InputError(f"{path}: line {number}: missing, where the header should be")
 
@@ -79,41 +94,73 @@ def _column(path: Path, key: str, names: tuple[str, ...], header: Sequence[str])
     return found
 
 
+@dataclass(frozen=True, slots=True)
+class _Written:
+    """How a file is written: names of its columns, what parts them, and its decimal mark."""
+
+    header: list[str]
+    delimiter: str
+    decimal: str
+    header_line: int
+
+
 def _numbers(
-    path: Path,
-    header_line: int,
-    delimiter: str,
-    header: list[str],
-    names: list[str],
-    progress: Progress,
+    path: Path, written: _Written, names: list[str], progress: Progress
 ) -> tuple[NDArray[Any], Array]:
     """Read these columns: line of each row (n,), and numbers (n, names)."""
-    places = [header.index(name) for name in names]
+    places = [(name, written.header.index(name)) for name in names]
     rows, numbers = array("q"), array("d")
     for line, text in _lines(path, progress):
-        if line <= header_line or not text.strip() or text.lstrip().startswith("#"):
+        if line <= written.header_line or not text.strip() or text.lstrip().startswith("#"):
             continue
-        cells = (
-            next(csv.reader([text], delimiter=delimiter)) if '"' in text else text.split(delimiter)
-        )
-        try:
-            values = [float(cells[place]) for place in places]
-            usable = all(map(isfinite, values))
-        except (ValueError, IndexError):
-            usable = False
-        if not usable:
-            values = [
-                _number(path, line, name, cells, place)
-                for name, place in zip(names, places, strict=True)
-            ]
+        cells = _cells(path, line, text, written.delimiter)
+        if len(cells) > len(written.header):
+            _check_rest(path, line, cells, written)
         rows.append(line)
-        numbers.extend(values)
+        numbers.extend(_row(path, line, cells, places, written))
         if len(rows) > _MOST_ROWS:
             raise InputError(f"{path}: line {line}: more samples than allowed: {_MOST_ROWS}")
     return np.array(rows), np.array(numbers).reshape(-1, len(names))
 
 
-def _number(path: Path, line: int, name: str, cells: list[str], place: int) -> float:
+def _cells(path: Path, line: int, text: str, delimiter: str) -> list[str]:
+    """Part a line at its delimiters, those within quotes left out. Raises InputError."""
+    if '"' not in text:
+        return text.split(delimiter)
+    try:
+        return next(csv.reader([text], delimiter=delimiter))
+    except csv.Error as error:
+        raise InputError(f"{path}: line {line}: {error}, allowed: a line of CSV") from error
+
+
+def _check_rest(path: Path, line: int, cells: list[str], written: _Written) -> None:
+    """Refuse more cells than the header has, but for empty ones, as after a last delimiter."""
+    most = len(written.header)
+    if not any(cell.strip() for cell in cells[most:]):
+        return
+    hint = ""
+    if written.delimiter == "," and written.decimal == ".":
+        hint = "; are its decimals commas? then another delimiter and csv.decimal of the map"
+    raise InputError(
+        f"{path}: line {line}: {len(cells)} columns, allowed: the {most} of the header{hint}"
+    )
+
+
+def _row(
+    path: Path, line: int, cells: list[str], wanted: list[tuple[str, int]], written: _Written
+) -> list[float]:
+    """Return the numbers of a line, NaN for an empty cell. Raises InputError for anything else."""
+    if written.decimal == ".":
+        try:
+            values = [float(cells[place]) for _, place in wanted]
+        except (ValueError, IndexError):
+            values = [float("nan")]
+        if all(map(isfinite, values)):
+            return values
+    return [_number(path, line, name, cells, place, written.decimal) for name, place in wanted]
+
+
+def _number(path: Path, line: int, name: str, cells: list[str], place: int, decimal: str) -> float:
     """Return the number in a cell, NaN for an empty one. Raises InputError for anything else."""
     if place >= len(cells):
         raise InputError(
@@ -123,16 +170,29 @@ def _number(path: Path, line: int, name: str, cells: list[str], place: int) -> f
     text = cells[place].strip()
     if not text:
         return float("nan")
-    try:
-        value = float(text)
-    except ValueError:
-        value = float("nan")
+    value = _value(text, decimal)
     if not isfinite(value):
         shown = text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}..."
+        hint = "; for decimal commas: csv.decimal of the map" if _has_comma(text, decimal) else ""
         raise InputError(
-            f"{path}: line {line}, column {name!r} = {shown!r}, allowed: a finite number or nothing"
+            f"{path}: line {line}, column {name!r} = {shown!r}, allowed: a finite number or"
+            f" nothing{hint}"
         )
     return value
+
+
+def _value(text: str, decimal: str) -> float:
+    """Return the number that is written so, NaN for none; no marks between thousands."""
+    if decimal != ".":
+        text = "none" if "." in text else text.replace(decimal, ".")
+    try:
+        return float(text)
+    except ValueError:
+        return float("nan")
+
+
+def _has_comma(text: str, decimal: str) -> bool:
+    return decimal == "." and isfinite(_value(text, ","))
 
 
 def _lines(path: Path, progress: Progress) -> Iterator[tuple[int, str]]:
@@ -142,7 +202,7 @@ def _lines(path: Path, progress: Progress) -> Iterator[tuple[int, str]]:
         size = max(path.stat().st_size, 1)
         read = 0
         with path.open("rb") as file:
-            while raw := file.readline(_LONGEST_LINE + 1):
+            for raw in _raw_lines(file):
                 line += 1
                 read += len(raw)
                 if len(raw) > _LONGEST_LINE:
@@ -156,3 +216,21 @@ def _lines(path: Path, progress: Progress) -> Iterator[tuple[int, str]]:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise InputError(f"{path}: line {line}: not UTF-8 text: byte {error.start + 1}") from error
+
+
+def _raw_lines(file: BinaryIO) -> Iterator[bytes]:
+    """Yield the lines with their ends: LF, CR LF, or CR alone as old spreadsheets write it."""
+    begin = file.read(_LONGEST_LINE)
+    file.seek(0)
+    if b"\n" in begin or b"\r" not in begin:
+        while raw := file.readline(_LONGEST_LINE + 1):
+            yield raw
+        return
+    rest = b""
+    while block := file.read(_LONGEST_LINE):
+        *whole, rest = (rest + block).split(b"\r")
+        yield from (line + b"\r" for line in whole)
+        if len(rest) > _LONGEST_LINE:
+            break  # too long for any reader
+    if rest:
+        yield rest

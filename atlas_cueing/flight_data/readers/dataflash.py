@@ -4,7 +4,7 @@ A table is a message (`IMU`), time `TimeUS` in whole us. Messages with a field `
 several sensors, of which one is chosen by its instance.
 """
 
-from contextlib import redirect_stderr, redirect_stdout
+from contextlib import redirect_stderr, redirect_stdout, suppress
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -42,7 +42,8 @@ def read_dataflash(path: Path, flight_map: FlightMap, progress: Progress) -> dic
     finally:
         for name in ("data_map", "filehandle"):
             if hasattr(log, name):
-                getattr(log, name).close()
+                with suppress(BufferError):  # an error that is on its way still looks at the map
+                    getattr(log, name).close()
 
 
 def _parts(path: Path, log: Any, flight_map: FlightMap, progress: Progress) -> dict[Part, Samples]:

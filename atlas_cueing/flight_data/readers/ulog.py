@@ -24,8 +24,9 @@ def read_ulog(path: Path, flight_map: FlightMap, progress: Progress) -> dict[Par
     parts = wanted(flight_map)
     progress(0.0)
     try:
-        with redirect_stdout(StringIO()):  # it prints what it finds wrong
-            log: Any = ULog(str(path))
+        # opened here, so that it is closed whatever happens; and it prints what it finds wrong
+        with path.open("rb") as file, redirect_stdout(StringIO()):
+            log: Any = ULog(file)
     except Exception as error:
         told = " ".join(str(error).split())[:300]
         raise InputError(

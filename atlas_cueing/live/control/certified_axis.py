@@ -155,9 +155,11 @@ class CertifiedStop:
     def at(self, t: float) -> Vec3:
         """Return position, speed and acceleration t >= 0 s after its start.
 
-        They are integrated backwards from the end: every sum is one of products, and zero at the
-        end to the last bit.
+        They are integrated backwards from the end: every sum is one of products. From `duration` on
+        it stands, to the last bit.
         """
+        if t >= self.duration:
+            return self.end, 0.0, 0.0
         now, ramp, hold = self._since + t, self._ramp, self._hold
         # s, left of the last ramp, of the hold, of the first ramp
         z = min(max(2.0 * ramp + hold - now, 0.0), ramp)

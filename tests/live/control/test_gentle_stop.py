@@ -45,6 +45,7 @@ def flown(limits: AxisLimits, state: Vec3) -> tuple[np.ndarray, float]:
 @settings(max_examples=60, phases=QUICK)
 @given(magnitudes, magnitudes, magnitudes, magnitudes, shares, shares, shares)
 @example(10.0, 10.0, 1.0, 1000.0, 0.0, 0.9, 0.424)  # near its speed, and still speeding up
+@example(4.3, 0.11, 0.1, 0.2, 0.0, 0.0, 0.156)  # its end is not a whole number of steps away
 def test_any_axis_from_any_state_that_can_stop(
     speed: float, acceleration: float, jerk: float, travel: float, p: float, v: float, a: float
 ) -> None:

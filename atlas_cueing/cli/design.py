@@ -1,0 +1,152 @@
+"""`atlas-cueing design`: wheels laid out for what flights ask of them."""
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from .options import AsJson
+
+EPILOG = """
+Examples:
+
+  atlas-cueing design atlas-2.9m --flights flights -o layouts
+
+  atlas-cueing design atlas-2.9m --flights rolls.mcap spin.mcap -o layouts --vary elevation,skew,preload --also 30/48.2
+
+  atlas-cueing design atlas-2.9m --flights flights -o turned --vary skew --objective condition_number
+
+  atlas-cueing design atlas-2.9m --flights flights -o layouts --choose 7      (the same again, another row of the table)
+
+The folder gets platform.toml (the chosen layout), layouts.json, index.html, and part-*.json: what has been worked out, so
+that a design that was stopped goes on where it was. Remove them to save room.
+"""  # noqa: E501 - commands to copy
+
+
+def design_command(
+    platform: Annotated[
+        str,
+        typer.Argument(
+            help="What to begin with: a platform of the package, or a file; it needs masses.",
+            metavar="PLATFORM",
+        ),
+    ],
+    flights: Annotated[
+        list[Path],
+        typer.Option(
+            "--flights", metavar="LOG...|FOLDER", help="Logs of rides, or folders of them."
+        ),
+    ],
+    output: Annotated[
+        Path,
+        typer.Option("-o", "--output", metavar="FOLDER", help="Where everything goes."),
+    ],
+    more: Annotated[
+        list[Path] | None, typer.Argument(help="Further logs of --flights.", metavar="[LOG]...")
+    ] = None,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--vary",
+            metavar="WORD,...",
+            help="Of elevation, skew, azimuth, radius, gear, preload; by default the first three.",
+        ),
+    ] = None,
+    ranges: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--range",
+            metavar="WORD=LOW:HIGH",
+            help="Range of a word of --vary, in deg, m or turns; repeatable.",
+        ),
+    ] = None,
+    objectives: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--objective",
+            metavar="FIGURE",
+            help="What layouts are to be good at; repeatable; by default preload, wheel load,"
+            " torque and wheel speed.",
+        ),
+    ] = None,
+    also: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="ELEVATION/SKEW[/AZIMUTH]", help="Measure this layout too, deg; repeatable."
+        ),
+    ] = None,
+    searches: Annotated[
+        int, typer.Option(min=1, max=10_000, help="Mixtures of the objectives that are searched.")
+    ] = 16,
+    seed: Annotated[
+        int, typer.Option(min=0, max=2**31 - 1, help="The same seed gives the same layouts.")
+    ] = 0,
+    choose: Annotated[
+        int | None,
+        typer.Option(
+            min=0, help="Row of the table that platform.toml gets; by default the nearest to ideal."
+        ),
+    ] = None,
+    jobs: Annotated[
+        int | None,
+        typer.Option(min=1, max=1024, help="Processes; by default one for each core."),
+    ] = None,
+    cluster: Annotated[
+        str | None,
+        typer.Option(
+            metavar="tcp://HOST:PORT", help="Search on a dask cluster; 'local' starts one here."
+        ),
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Search layouts of the wheels for what real rides ask of them.
+
+    The rides are held fixed: the sphere's motion as it is in the logs, the platform's masses,
+    preloads, supports, limits, friction and motors. The wheels stand evenly around z; what --vary
+    names is searched, by default elevation, skew and azimuth. Nothing is said of what the rides
+    would be within the limits of another layout. With preload, the chosen platform gets a force
+    straight down that keeps its traction margin on all rides.
+
+    The table has the layouts of which none is better in every objective, measured at every tick of
+    every ride. Exit status 0: done. 1: stopped, or a log is damaged; the same command goes on. 2:
+        bad input, nothing was written.
+    """
+    from ..design import (
+        Problem,
+        check_objectives,
+        has_rows,
+        layout_of,
+        log_files,
+        ranges_of,
+        read_flights,
+    )
+    from ..design.variation import layout_asked
+    from ..scenario import load_platform
+    from .design_run import DesignRun
+    from .text import say
+
+    begun = load_platform(platform)
+    start, model = layout_of(begun), begun.load_model()
+    searched, preloaded = ranges_of(
+        vary or ["elevation,skew,azimuth"], ranges or (), start, len(begun.wheel)
+    )
+    goals = check_objectives(objectives or _usual([*searched]), rows=has_rows(begun))
+    asked = [layout_asked(text, start) for text in also or ()]
+    logs = log_files([*flights, *(more or ())])
+    run = DesignRun(platform, begun, output, logs, preloaded=preloaded, choose=choose)
+    run.check()
+    ridden, names = read_flights(model, logs)
+    say(f"{len(names)} rides with {len(ridden)} ticks; searching {', '.join(searched)}")
+    problem = Problem(begun, start, searched, goals, ridden)
+    workers = jobs or len(os.sched_getaffinity(0))
+    front = run.search(problem, asked, searches, seed, workers, cluster)
+    typer.echo(run.finish(front, names, as_json=as_json))
+
+
+def _usual(searched: Sequence[str]) -> Sequence[str]:
+    """With the gear searched, what the motor has to give is an objective too."""
+    from ..design import USUAL
+
+    return (*USUAL, "motor_torque_max_n_m", "motor_speed_max_rad_s") if "gear" in searched else ()
