@@ -36,6 +36,8 @@ from .live import EPILOG as LIVE_EPILOG
 from .live import live_command
 from .operate import EPILOG as OPERATE_EPILOG
 from .operate import operate_command
+from .plant import EPILOG as PLANT_EPILOG
+from .plant import plant_command
 from .platform import EPILOG as PLATFORM_EPILOG
 from .platform import platform_command
 from .recover import EPILOG as RECOVER_EPILOG
@@ -75,6 +77,7 @@ app.command("recue", epilog=RECUE_EPILOG)(recue_command)
 app.command("recover", epilog=RECOVER_EPILOG)(recover_command)
 app.command("import", epilog=IMPORT_EPILOG)(import_command)
 app.command("export", epilog=EXPORT_EPILOG)(export_command)
+app.command("plant", epilog=PLANT_EPILOG)(plant_command)
 app.command("platform", epilog=PLATFORM_EPILOG)(platform_command)
 app.command("design", epilog=DESIGN_EPILOG)(design_command)
 app.command("new", epilog=NEW_EPILOG)(new_command)

@@ -3,6 +3,7 @@
 from .log import Log, TopicColumns
 from .reader import read_log
 from .recorder import RUN_METADATA, McapRecorder
+from .rewriting import rewrite_log
 from .vehicle_log import write_vehicle_log
 
 __all__ = [
@@ -11,5 +12,6 @@ __all__ = [
     "McapRecorder",
     "TopicColumns",
     "read_log",
+    "rewrite_log",
     "write_vehicle_log",
 ]

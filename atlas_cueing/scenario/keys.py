@@ -26,7 +26,11 @@ from .vehicle_table import SOURCES
 _NOTHING = object()  # no value of a file
 _LONGEST = 200  # characters of what is allowed; names of aircraft are listed by the command `list`
 _OTHER_UNITS = {  # of platforms, beside those of `parameter.UNITS`; the longer ends first
+    "_rad_sqrt_s": "rad/sqrt(s)",
     "stiffness_n_m": "N/m",
+    "_1_m": "1/m",
+    "_1_s": "1/s",
+    "_s_m": "s/m",
     "_per_m": "1/m",
     "_kg_m2": "kg m^2",
     "_n_m_s": "N m s",

@@ -27,6 +27,7 @@ from .load_tables import (
     TractionTable,
     missing_keys,
 )
+from .plant_table import PlantTable
 from .tables import (
     ONE_OR_EACH,
     ONE_OR_THREE,
@@ -222,6 +223,7 @@ class Platform(ScenarioTable):
     preload: Annotated[tuple[PreloadTable, ...], SEVERAL] | None = None
     support: Annotated[tuple[SupportTable, ...], SEVERAL] | None = None
     traction: TractionTable | None = None
+    plant: PlantTable | None = None
     part: Annotated[tuple[PartTable, ...], SEVERAL] | None = None
 
     @field_validator("wheel_limits")

@@ -9,10 +9,12 @@ from .state_change import StateChange
 from .states import Cue, Motion, Tick, Timing, VehicleState, WheelSpeeds
 from .topics import (
     ALL_TOPICS,
+    CORRECTION,
     LIVE_ROW,
     LIVE_STATES,
     LIVE_TOPICS,
     LOADS,
+    PLANT,
     ROW,
     TIMING,
     TOPICS,
@@ -23,10 +25,12 @@ from .topics import (
 
 __all__ = [
     "ALL_TOPICS",
+    "CORRECTION",
     "LIVE_ROW",
     "LIVE_STATES",
     "LIVE_TOPICS",
     "LOADS",
+    "PLANT",
     "ROW",
     "SOFT_STAGE_SHARE",
     "SOFT_WHEEL_SHARE",

@@ -100,7 +100,41 @@ LOADS = Topic(
 
 Drive and normal force, torque, power and traction use of each wheel (`loads`)."""
 
-ALL_TOPICS = (*LIVE_TOPICS, LOADS)
+PLANT = Topic(
+    "/plant",
+    "atlas.Plant",
+    (
+        *("time_s", "q_ws_w", "q_ws_x", "q_ws_y", "q_ws_z", "wx_rad_s", "wy_rad_s", "wz_rad_s"),
+        *("fx_m_s2", "fy_m_s2", "fz_m_s2", "error_rad"),
+        *("estimate_ws_w", "estimate_ws_x", "estimate_ws_y", "estimate_ws_z"),
+        "estimate_error_rad",
+        *(
+            f"{name}{k}_{unit}"
+            for name, unit in (("s", "m_s"), ("n", "n"), ("t", "n_m"), ("u", "rad_s"))
+            for k in (1, 2, 3)
+        ),
+        *("residual1_rad_s", "residual2_rad_s", "residual3_rad_s"),
+    ),
+)
+"""Of `plant` only, once a tick: where the simulated sphere really is (frame W), what the rider
+really feels (FRD, as /felt), how far that is from /motion, the observer's estimate; of each wheel
+slip, normal force, torque, speed, and the slip that gyro and wheel tell."""
+
+CORRECTION = Topic(
+    "/correction",
+    "atlas.Correction",
+    (
+        "time_s",
+        *(
+            f"{name}{k}_{unit}"
+            for name, unit in (("angle", "rad"), ("w", "rad_s"), ("a", "rad_s2"))
+            for k in (1, 2, 3)
+        ),
+    ),
+)
+"""What the attitude loop adds to the schedule: angle, speed and acceleration of each wheel."""
+
+ALL_TOPICS = (*LIVE_TOPICS, LOADS, PLANT, CORRECTION)
 """Whatever topic of flat doubles a log may hold."""
 
 

@@ -1,0 +1,93 @@
+"""`atlas-cueing plant`: a log's schedule on a simulated platform."""
+
+from collections.abc import Mapping
+from math import degrees
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from .options import AsJson, Force
+
+EPILOG = """
+Examples:
+
+  atlas-cueing plant f16_rolls.mcap -o open.mcap
+
+  atlas-cueing plant f16_rolls.mcap --feedback fix -o closed.mcap
+
+  atlas-cueing plant f16_rolls.mcap --feedback fix --set platform.plant.fix_latency_s=0.05 --json
+
+  atlas-cueing keys platform.plant
+"""
+
+
+def plant_command(
+    log: Annotated[Path, typer.Argument(help="Log (MCAP) whose schedule is flown.", metavar="LOG")],
+    feedback: Annotated[
+        str,
+        typer.Option(
+            "--feedback",
+            metavar="KIND",
+            help="What the loop knows: none, odometry (of the wheels), gyro, fix (gyro and fixes).",
+        ),
+    ] = "none",
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o", "--output", metavar="NEW", help="Log to write, with /plant and /correction."
+        ),
+    ] = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="KEY=VALUE",
+            help="Set any key of platform.plant: contacts, drives, sensors; repeatable.",
+        ),
+    ] = None,
+    as_json: AsJson = False,
+    force: Force = False,
+) -> None:
+    """Fly a log's wheels and stage on a simulated platform whose wheels slip.
+
+    The sphere lies on springs, its wheels transmit force by friction with creep, servos turn them,
+    gyro and fix measure it. Told are how far it is from /motion in the end, slip, what the rider
+    really feels, and energy. Every number of it that is not of the log or its platform is assumed.
+
+    Exit status 0: flown. 1: the log is damaged. 2: bad input, nothing written.
+    """
+    from ..plant import fly_plant, plant_figures, plant_table, write_plant_log
+    from ..review import open_run
+    from ..run import check_output
+    from .progress import shown_share
+    from .text import one_json
+
+    new = check_output(output, inputs=[log], force=force, fresh=True) if output else None
+    run = open_run(log)
+    table = plant_table(run.platform, settings or ())
+    with shown_share("plant") as progress:
+        flown = fly_plant(run.log, run.platform, feedback, table, progress)
+    figures = plant_figures(flown, run.log)
+    if new:
+        write_plant_log(run.log, flown, new)
+    told = {"log": str(log), "feedback": feedback, "written": str(output or ""), **figures}
+    typer.echo(one_json(told) if as_json else "\n".join(_lines(told)))
+
+
+_ANGLE = "_rad"
+
+
+def _lines(told: Mapping[str, Any]) -> list[str]:
+    """Figures as people read them: angles in degrees."""
+    from .text import aligned
+
+    rows = []
+    for name, value in told.items():
+        if not isinstance(value, float):
+            rows.append((name, str(value)))
+        elif name.endswith(_ANGLE):
+            rows.append((f"{name.removesuffix(_ANGLE)}_deg", f"{degrees(value):.4g}"))
+        else:
+            rows.append((name, f"{value:.4g}"))
+    return aligned([row for row in rows if row[1]], "")

@@ -1,0 +1,56 @@
+"""Where the sphere is, as a gyro and late fixes tell.
+
+Between fixes the gyro, less its bias, is integrated. A fix of time t_m is compared with the
+estimate of that time:
+
+    e = log(q_fix q_hat(t_m)^-1)  in W
+    q_hat <- exp(k_q e) q_hat,  b <- b - k_b R^T e / T
+
+An error on the left stays the same as the sphere turns (q_hat(t) = q_hat(t_m) times what the gyro
+saw since), so the late fix corrects the present estimate by the same e.
+"""
+
+# mypyc: runs every tick
+
+from typing import Final
+
+from ..rotation import Quat, Vec3, conjugate, exp, log, multiply, rotate, scale
+
+
+class AttitudeObserver:
+    """gain and bias_gain: shares of a fix, 0 to 1; a fix every `period` s; memory in s."""
+
+    def __init__(
+        self, q_WS: Quat, gain: float, bias_gain: float, period: float, memory: float
+    ) -> None:
+        """Start at a known orientation, at time 0."""
+        self.q_WS = q_WS
+        self.bias_S: Vec3 = (0.0, 0.0, 0.0)
+        self._gain: Final[float] = gain
+        self._bias_gain: Final[float] = bias_gain / period
+        self._memory: Final[float] = memory
+        self._past: list[tuple[float, Quat]] = [(0.0, q_WS)]
+
+    def turn(self, time: float, rate_S: Vec3, dt: float) -> None:
+        """Take the gyro's rate (rad/s, S) over the dt (s) that end at `time` (s)."""
+        b = self.bias_S
+        turn = (rate_S[0] - b[0], rate_S[1] - b[1], rate_S[2] - b[2])
+        self.q_WS = multiply(self.q_WS, exp(scale(dt, turn)))
+        self._past.append((time, self.q_WS))
+        while self._past[0][0] < time - self._memory:
+            del self._past[0]
+
+    def take_fix(self, time: float, fix_WS: Quat) -> None:
+        """Take a fix that was seen at `time` (s); one that is older than the memory is dropped."""
+        seen = [q for t, q in self._past if abs(t - time) < 1e-6]
+        if not seen:
+            return
+        then = seen[-1]
+        error = log(multiply(fix_WS, conjugate(then)))
+        pull = exp(scale(self._gain, error))
+        self.q_WS = multiply(pull, self.q_WS)
+        # what is compared next must know of this pull
+        self._past = [(t, multiply(pull, q)) for t, q in self._past]
+        e, b = rotate(conjugate(then), error), self.bias_S
+        k = self._bias_gain
+        self.bias_S = (b[0] - k * e[0], b[1] - k * e[1], b[2] - k * e[2])
