@@ -16,7 +16,7 @@ from ..rotations import Array
 from ..scenario import Platform
 from ..scenario.load_tables import DriveTable
 from ..scenario.plant_table import PlantTable
-from ..scenario.platform_file import WheelTable
+from ..scenario.wheel_tables import WheelTable
 from .passive_contacts import PassiveContact, PassiveContacts
 from .plant_parts import PlantBody, PlantServo, PlantWheel
 from .rolling_contact import Friction, RollingContact

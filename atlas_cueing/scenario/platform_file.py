@@ -1,191 +1,46 @@
 """The platform file: geometry, limits and where the rider's head is."""
 
-from dataclasses import dataclass
-from functools import cache, lru_cache
-from math import cos, radians
+from functools import cache
 from pathlib import Path
-from typing import Annotated, Any, TypeAlias
-from unicodedata import category, normalize
+from typing import Annotated, TypeAlias
 
-from pydantic import BeforeValidator, ValidationInfo, field_validator, model_validator
+from pydantic import ValidationInfo, field_validator, model_validator
 
 from ..errors import InputError
-from ..loads import UNLIMITED, KeptRows, LoadModel, WheelContact, body_of
-from ..rotation import ZERO, Vec3, add, norm
+from ..loads import UNLIMITED, KeptRows, LoadModel, body_of
+from ..rotation import Vec3, norm
 from ..signals import SOFT_STAGE_SHARE, SOFT_WHEEL_SHARE, StageLimits, WheelLimits
-from ..wheels import Geometry, OmniWheel, RollerRows
+from ..wheels import Geometry
 from .load_tables import (
     SEVERAL,
     DriveTable,
-    Force,
-    Friction,
-    Inertia,
     PartTable,
     PreloadTable,
-    Stiffness,
     SupportTable,
     TractionTable,
     missing_keys,
 )
 from .plant_table import PlantTable
+from .platform_name import NAME
 from .tables import (
-    ONE_OR_EACH,
     ONE_OR_THREE,
     THREE,
     WHEELS,
     Finite,
     ScenarioTable,
-    check_text,
-    number,
     object_to,
     refuse,
     says,
-    whole,
 )
+from .wheel_tables import Length, Limit, LimitsOfEach, WheelLimitsTable, WheelTable, of_each
 
-Direction: TypeAlias = Annotated[tuple[Finite, Finite, Finite], THREE]
-Length: TypeAlias = Annotated[float, number(0.001, 100.0)]  # m; from a bead to a gasometer
-# squares and quotients of these stay far from overflow
-Limit: TypeAlias = Annotated[float, number(1e-6, 1e6)]
 Limits: TypeAlias = Annotated[tuple[Limit, Limit, Limit], ONE_OR_THREE]
-LimitsOfWheels: TypeAlias = Annotated[tuple[Limit, ...], ONE_OR_EACH]
-
-_LONGEST_NAME = 100  # characters, and ...
-_LONGEST_NAME_BYTES = 200  # ... bytes in UTF-8: names of files, which it begins, end at 255
-_LETTERS = ("L", "M", "Nd")  # categories of Unicode: letters, marks upon them, digits
-
-
-def _name(value: Any) -> str:
-    """A name, composed (NFC), so that what looks the same is the same."""
-    allowed = "letters and digits of any alphabet, '.', '_', '-', not beginning with '.' or a mark"
-    allowed += f", at most {_LONGEST_NAME} characters and {_LONGEST_NAME_BYTES} bytes"
-    check_text(value, allowed)
-    name = normalize("NFC", value)
-    if not 0 < len(name) <= _LONGEST_NAME or not all(map(_is_name_part, name)):
-        raise refuse(allowed)
-    if (
-        name[0] == "."
-        or category(name[0]).startswith("M")
-        or len(name.encode()) > _LONGEST_NAME_BYTES
-    ):
-        raise refuse(allowed)
-    return name
-
-
-def _is_name_part(character: str) -> bool:
-    return character in "._-" or category(character).startswith(_LETTERS)
-
-
-NAME = BeforeValidator(_name)
 
 
 class SphereTable(ScenarioTable):
     """`[sphere]`."""
 
     radius_m: Annotated[Length, says("radius of the sphere")]
-
-
-class WheelTable(ScenarioTable):
-    """One `[[wheel]]`: directions in W, of any length.
-
-    roller_deg: of a Mecanum wheel, the angle between roller axis (`drive`) and rim direction. The
-    last three keys describe two rows of rollers; loads need friction.
-    """
-
-    contact: Annotated[
-        Direction, says("direction of the contact from the centre of the sphere, in W")
-    ]
-    drive: Annotated[Direction, says("direction in which the wheel drives the sphere, in W")]
-    radius_m: Annotated[Length, says("radius of the wheel")]
-    roller_deg: Annotated[
-        Annotated[float, number(0.0, 80.0)] | None,
-        says("of a Mecanum wheel: angle between roller axis and rim"),
-    ] = None
-    inertia_kg_m2: Annotated[Inertia | None, says("inertia of the wheel about its axle")] = None
-    friction: Annotated[Friction | None, says("coefficient of friction at the contact")] = None
-    stiffness_n_m: Annotated[Stiffness | None, says("stiffness of contact and suspension")] = None
-    load_limit_n: Annotated[Force | None, says("largest normal force")] = None
-    row_offset_m: Annotated[
-        Annotated[float, number(0.0, 10.0)] | None,
-        says("of two rows of rollers: distance of a row from the middle"),
-    ] = None
-    roller_profile_radius_m: Annotated[
-        Annotated[float, number(0.0, 10.0)] | None, says("radius of a roller's profile")
-    ] = None
-    rollers_per_row: Annotated[Annotated[int, whole(3, 1000)] | None, says("rollers in a row")] = (
-        None
-    )
-
-    @model_validator(mode="after")
-    def _is_a_wheel(self) -> "WheelTable":
-        try:
-            self.wheel()
-        except InputError as error:
-            raise object_to(str(error)) from None
-        keys = (self.row_offset_m, self.roller_profile_radius_m, self.rollers_per_row)
-        if None in keys and any(key is not None for key in keys):
-            raise object_to(
-                "allowed: all or none of row_offset_m, roller_profile_radius_m, rollers_per_row"
-            )
-        return self
-
-    def wheel(self) -> OmniWheel:
-        """The wheel with unit directions and a drive exactly tangent to the sphere."""
-        return _wheel(self.contact, self.drive, self.effective_radius_m)
-
-    @property
-    def effective_radius_m(self) -> float:
-        """The radius that turns the sphere along the drive: of a Mecanum wheel r cos(roller)."""
-        if self.roller_deg is None:
-            return self.radius_m
-        return self.radius_m * cos(radians(self.roller_deg))
-
-    @property
-    def rows(self) -> RollerRows | None:
-        """Its two rows of rollers; None for a wheel with one, or none described."""
-        offset, profile = self.row_offset_m, self.roller_profile_radius_m
-        if offset is None or profile is None or self.rollers_per_row is None:
-            return None
-        return RollerRows(offset, profile, self.rollers_per_row)
-
-    def load_contact(self, drive: DriveTable) -> WheelContact:
-        """The wheel as loads need it, with motor and losses of `drive`."""
-        wheel = self.wheel()
-        return WheelContact(
-            wheel.contact,
-            wheel.drive,
-            wheel.radius,
-            friction=self.friction or 0.0,
-            inertia=(self.inertia_kg_m2 or 0.0) + drive.reflected_inertia,
-            viscous=drive.viscous_n_m_s or 0.0,
-            coulomb=drive.coulomb_n_m or 0.0,
-            stiffness=self.stiffness_n_m or 1.0,
-            load_limit=self.load_limit_n,
-        )
-
-
-@lru_cache(maxsize=64)  # of ten thousand platforms that a sweep makes, few have wheels of their own
-def _wheel(contact: Vec3, drive: Vec3, radius: float) -> OmniWheel:
-    # 0 and -0 are one key: the sum makes both 0, so that the wheel does not depend on which came
-    # first
-    return OmniWheel.along(add(contact, ZERO), add(drive, ZERO), radius)
-
-
-class WheelLimitsTable(ScenarioTable):
-    """`[wheel_limits]`: one number for all wheels, kept as three of them, or one each."""
-
-    speed_rad_s: Annotated[LimitsOfWheels, says("largest speed of a wheel")]
-    acceleration_rad_s2: Annotated[LimitsOfWheels, says("largest acceleration of a wheel")]
-    jerk_rad_s3: Annotated[LimitsOfWheels, says("largest jerk of a wheel")]
-
-
-@dataclass(frozen=True, slots=True)
-class LimitsOfEach:
-    """Limits of each wheel, however many: speed rad/s, acceleration rad/s^2, jerk rad/s^3."""
-
-    speed: tuple[float, ...]
-    acceleration: tuple[float, ...]
-    jerk: tuple[float, ...]
 
 
 class StageLimitsTable(ScenarioTable):
@@ -231,7 +86,7 @@ class Platform(ScenarioTable):
     def _fit_the_wheels(cls, limits: WheelLimitsTable, info: ValidationInfo) -> WheelLimitsTable:
         count = len(info.data.get("wheel", ()))
         values = (limits.speed_rad_s, limits.acceleration_rad_s2, limits.jerk_rad_s3)
-        if count and not all(_of_each(limit, count) for limit in values):
+        if count and not all(of_each(limit, count) for limit in values):
             raise refuse(f"a number, or a list of {count}: one for each wheel")
         return limits
 
@@ -325,7 +180,7 @@ class Platform(ScenarioTable):
         """Limits of the wheels, however many, SI."""
         table = self.wheel_limits
         values = (table.speed_rad_s, table.acceleration_rad_s2, table.jerk_rad_s3)
-        return LimitsOfEach(*(_of_each(limit, len(self.wheel)) for limit in values))
+        return LimitsOfEach(*(of_each(limit, len(self.wheel)) for limit in values))
 
     def _three(self, limits: tuple[float, ...]) -> Vec3:
         if len(limits) != 3:
@@ -354,13 +209,6 @@ class Platform(ScenarioTable):
     def head_S(self) -> Vec3:
         """The rider's head from the sphere centre, m, in S."""
         return self.rider.head_m
-
-
-def _of_each(limits: tuple[float, ...], count: int) -> tuple[float, ...]:
-    """Limits of `count` wheels: one each, or one number, which three stand for; () for others."""
-    if len(limits) == count:
-        return limits
-    return limits[:1] * count if limits == limits[:1] * 3 else ()
 
 
 def without_room(platform: Platform, dt: float) -> list[tuple[tuple[str, str], float, str]]:

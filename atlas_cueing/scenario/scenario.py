@@ -17,7 +17,8 @@ from ..vehicles import Flight
 from ..vehicles.jsbsim.user_models import read_users
 from .cueing_table import TABLES, CueingTable
 from .mistakes import FileNamer, nearest
-from .platform_file import NAME, Platform, presets
+from .platform_file import Platform, presets
+from .platform_name import NAME
 from .tables import ScenarioTable, number, object_to, refuse, says, text, whole
 from .vehicle_table import VehicleTable
 

@@ -16,8 +16,8 @@ import pytest
 from pydantic import ValidationError
 
 from atlas_cueing.scenario import Platform, load_platform, presets
-from atlas_cueing.scenario.platform_file import WheelTable
 from atlas_cueing.scenario.reading import read_toml
+from atlas_cueing.scenario.wheel_tables import WheelTable
 from atlas_cueing.wheels import OmniWheel, Wheels, headroom
 
 ORACLES = json.loads((Path(__file__).parents[1] / "oracles" / "kinematics.json").read_text())
