@@ -18,7 +18,8 @@ loader.exec_module(tool)
 sys.dont_write_bytecode = before
 
 README = """
-Named: `tools/fuzz`, `tools/demo`, `tools/fuzz` again and a file, tools/foxglove_layout.json;
+Named: `tools/fuzz`, `tools/demo`, `tools/fuzz` again and files, tools/foxglove_layout.json,
+tools/benchmarks/figures.json;
 tools/check_readme is itself.
 
 ```sh
