@@ -53,7 +53,7 @@ def compare_command(
     """Put several logs of one flight side by side.
 
     Exit status 0: all are clean. 1: one has a finding or cannot be read. 2: bad usage, or logs of
-        different flights.
+    different flights.
     """
     from ..review import compare_logs as compared
     from .open_page import check_figure, check_pages

@@ -3,7 +3,7 @@
 import os
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, TypeAlias
 
 import typer
 
@@ -24,81 +24,93 @@ The folder gets platform.toml (the chosen layout), layouts.json, index.html, and
 that a design that was stopped goes on where it was. Remove them to save room.
 """  # noqa: E501 - commands to copy
 
+PlatformName: TypeAlias = Annotated[
+    str,
+    typer.Argument(
+        help="What to begin with: a platform of the package, or a file; it needs masses.",
+        metavar="PLATFORM",
+    ),
+]
+Flights: TypeAlias = Annotated[
+    list[Path],
+    typer.Option("--flights", metavar="LOG...|FOLDER", help="Logs of rides, or folders of them."),
+]
+Output: TypeAlias = Annotated[
+    Path,
+    typer.Option("-o", "--output", metavar="FOLDER", help="Where everything goes."),
+]
+MoreLogs: TypeAlias = Annotated[
+    list[Path] | None, typer.Argument(help="Further logs of --flights.", metavar="[LOG]...")
+]
+Vary: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--vary",
+        metavar="WORD,...",
+        help="Of elevation, skew, azimuth, radius, gear, preload; by default the first three.",
+    ),
+]
+Ranges: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--range",
+        metavar="WORD=LOW:HIGH",
+        help="Range of a word of --vary, in deg, m or turns; repeatable.",
+    ),
+]
+Objectives: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--objective",
+        metavar="FIGURE",
+        help="What layouts are to be good at; repeatable; by default preload, wheel load,"
+        " torque and wheel speed.",
+    ),
+]
+Also: TypeAlias = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="ELEVATION/SKEW[/AZIMUTH]", help="Measure this layout too, deg; repeatable."
+    ),
+]
+Searches: TypeAlias = Annotated[
+    int, typer.Option(min=1, max=10_000, help="Mixtures of the objectives that are searched.")
+]
+Seed: TypeAlias = Annotated[
+    int, typer.Option(min=0, max=2**31 - 1, help="The same seed gives the same layouts.")
+]
+Choose: TypeAlias = Annotated[
+    int | None,
+    typer.Option(
+        min=0, help="Row of the table that platform.toml gets; by default the nearest to ideal."
+    ),
+]
+Jobs: TypeAlias = Annotated[
+    int | None,
+    typer.Option(min=1, max=1024, help="Processes; by default one for each core."),
+]
+Cluster: TypeAlias = Annotated[
+    str | None,
+    typer.Option(
+        metavar="tcp://HOST:PORT", help="Search on a dask cluster; 'local' starts one here."
+    ),
+]
+
 
 def design_command(
-    platform: Annotated[
-        str,
-        typer.Argument(
-            help="What to begin with: a platform of the package, or a file; it needs masses.",
-            metavar="PLATFORM",
-        ),
-    ],
-    flights: Annotated[
-        list[Path],
-        typer.Option(
-            "--flights", metavar="LOG...|FOLDER", help="Logs of rides, or folders of them."
-        ),
-    ],
-    output: Annotated[
-        Path,
-        typer.Option("-o", "--output", metavar="FOLDER", help="Where everything goes."),
-    ],
-    more: Annotated[
-        list[Path] | None, typer.Argument(help="Further logs of --flights.", metavar="[LOG]...")
-    ] = None,
-    vary: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--vary",
-            metavar="WORD,...",
-            help="Of elevation, skew, azimuth, radius, gear, preload; by default the first three.",
-        ),
-    ] = None,
-    ranges: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--range",
-            metavar="WORD=LOW:HIGH",
-            help="Range of a word of --vary, in deg, m or turns; repeatable.",
-        ),
-    ] = None,
-    objectives: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--objective",
-            metavar="FIGURE",
-            help="What layouts are to be good at; repeatable; by default preload, wheel load,"
-            " torque and wheel speed.",
-        ),
-    ] = None,
-    also: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="ELEVATION/SKEW[/AZIMUTH]", help="Measure this layout too, deg; repeatable."
-        ),
-    ] = None,
-    searches: Annotated[
-        int, typer.Option(min=1, max=10_000, help="Mixtures of the objectives that are searched.")
-    ] = 16,
-    seed: Annotated[
-        int, typer.Option(min=0, max=2**31 - 1, help="The same seed gives the same layouts.")
-    ] = 0,
-    choose: Annotated[
-        int | None,
-        typer.Option(
-            min=0, help="Row of the table that platform.toml gets; by default the nearest to ideal."
-        ),
-    ] = None,
-    jobs: Annotated[
-        int | None,
-        typer.Option(min=1, max=1024, help="Processes; by default one for each core."),
-    ] = None,
-    cluster: Annotated[
-        str | None,
-        typer.Option(
-            metavar="tcp://HOST:PORT", help="Search on a dask cluster; 'local' starts one here."
-        ),
-    ] = None,
+    platform: PlatformName,
+    flights: Flights,
+    output: Output,
+    more: MoreLogs = None,
+    vary: Vary = None,
+    ranges: Ranges = None,
+    objectives: Objectives = None,
+    also: Also = None,
+    searches: Searches = 16,
+    seed: Seed = 0,
+    choose: Choose = None,
+    jobs: Jobs = None,
+    cluster: Cluster = None,
     as_json: AsJson = False,
 ) -> None:
     """Search layouts of the wheels for what real rides ask of them.
@@ -111,7 +123,7 @@ def design_command(
 
     The table has the layouts of which none is better in every objective, measured at every tick of
     every ride. Exit status 0: done. 1: stopped, or a log is damaged; the same command goes on. 2:
-        bad input, nothing was written.
+    bad input, nothing was written.
     """
     from ..design import (
         Problem,

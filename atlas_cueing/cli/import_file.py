@@ -80,7 +80,7 @@ def import_command(
     is played with source = "recording", or cued by recue.
 
     Exit status 0: written. 2: bad input; file, line or message, and column are named, and nothing
-        was written.
+    was written.
     """
     from ..flight_data import load_map, write_flight
     from ..run import check_output

@@ -39,11 +39,11 @@ def platform_command(
     """Show a platform's Jacobians, its conditioning, its limits and how fast the sphere may turn.
 
     With --loads also the loads at rest, the accelerations at which a wheel lifts off, slips or
-        lacks torque, and which limits promise more than that.
+    lacks torque, and which limits promise more than that.
 
     Exit status 1 when the geometry is singular: its wheels cannot turn the sphere about every axis
-        without slip; and when limits promise more than contacts can give and the platform says
-        [traction] report = "finding".
+    without slip; and when limits promise more than contacts can give and the platform says
+    [traction] report = "finding".
     """
     from ..scenario import load_platform
     from .platform_loads import loads_summary, row_figures, sizes

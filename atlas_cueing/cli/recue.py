@@ -41,7 +41,7 @@ def recue_command(
     Without --set the new log repeats the old one's cue, motion and wheels exactly.
 
     Exit status 0: written and clean. 1: the new log has a finding. 2: bad input, also an old log
-        that is damaged, and nothing written.
+    that is damaged, and nothing written.
     """
     from ..review import cue_again as recued
     from ..review import review_log as judged

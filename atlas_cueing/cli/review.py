@@ -69,7 +69,7 @@ def review_command(
     of the run. A flight alone, as one that was imported, is judged by whether it can be flown.
 
     Exit status 0: nothing was found. 1: a finding, or the log is damaged or not one of ours. 2: bad
-        usage.
+    usage.
     """
     from ..review import is_flight_alone, judge, open_log, run_of
     from .open_page import check_figure, check_pages

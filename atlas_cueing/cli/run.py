@@ -32,7 +32,7 @@ def run_command(
     """Fly a scenario and write its log.
 
     Exit status 0: flown, every limit kept. 1: the vehicle failed, the run was interrupted or a
-        limit was violated; the log is
+    limit was violated; the log is
     complete up to there. 2: bad input, nothing was written.
     """
     # Loading JSBSim, scipy and the rest takes far longer than --help should.
