@@ -223,4 +223,5 @@ def test_small_and_large_stages_are_solved_alike(scale: float) -> None:
 
 
 def test_axis_limits_come_in_the_order_of_stage_limits() -> None:
-    assert list(StageLimits.__dataclass_fields__) == ["travel", "speed", "acceleration", "jerk"]
+    names = list(StageLimits.__dataclass_fields__)
+    assert names[:4] == ["travel", "speed", "acceleration", "jerk"]
