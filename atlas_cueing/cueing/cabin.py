@@ -120,16 +120,18 @@ class FreeCabin:
         self._w_extra, self._carried = ZERO, ZERO
 
     def carry(self, w_S: Vec3) -> None:
-        """Turn for one tick with the rate w_S (rad/s, S), by the trapezoid."""
+        """Turn for one tick with the rate w_S (rad/s, S): `integrate_body` of both ends of it."""
         before, self._w_S = self._w_S, w_S
         self._carried = scale(0.5 * self._dt, add(before, w_S))
         self.q_WS = integrate_body(self.q_WS, self._carried, before, w_S, self._dt)
 
     def turn(self, w_extra: Vec3) -> None:
-        """Turn for the same tick with the extra rate w_extra (rad/s, S), by the trapezoid."""
+        """Turn for the same tick with the extra rate w_extra (rad/s, S), by the trapezoid.
+
+        After `carry` with h, it turns by e - h x e / 2: both at once, to second order.
+        """
         before, self._w_extra = self._w_extra, w_extra
         extra = scale(0.5 * self._dt, add(before, w_extra))
-        # as if both turns were made at once, to second order
         extra = subtract(extra, scale(0.5, cross(self._carried, extra)))
         self.q_WS = normalise(multiply(self.q_WS, exp(extra)))
 

@@ -37,7 +37,8 @@ def measure(platform: Platform, layout: Layout, ridden: Ridden) -> Measured | No
       reserve; at [traction] margin: preload_with_margin_n.
     - wheel_load_max_n: largest normal force, with the preload needed if it is positive.
     - torque_max_n_m, wheel_speed_max_rad_s: at the axle of any wheel; motor_torque_max_n_m,
-      motor_speed_max_rad_s: through gear and efficiency.
+      motor_speed_max_rad_s: through gear and efficiency, which counts against the motor while it
+      brakes as well: 1 - efficiency^2 too much at most.
     - power_peak_w, regenerated_peak_w: of all wheels together, both positive.
     - condition_number; clearance_m, gap_m: room below and between the wheels.
     - sphere_rate_worst_rad_s, sphere_acceleration_worst_rad_s2: about the worst axis, within the
@@ -65,8 +66,9 @@ def measure_fully(platform: Platform, layout: Layout, ridden: Ridden) -> Measure
     """Measure as `measure`, with what only a chosen layout is asked for.
 
     - torque_rms_n_m: of the wheel that has most; slip_share, lift_share: of the ticks, as the
-      platform is; lift_off_m_s2: of the stage, worst horizontal direction; sphere acceleration by
-      traction, worst axis; ripple_rms, of wheels with two rows.
+      platform is; a wheel that does not touch slips, as in the figures of a run; lift_off_m_s2: of
+      the stage, worst horizontal direction; sphere acceleration by traction, worst axis;
+      ripple_rms, of wheels with two rows.
     - preload_with_margin_n: as preload_needed_n, at the platform's margin of friction.
     """
     found = measure(platform, layout, ridden)
@@ -83,7 +85,7 @@ def measure_fully(platform: Platform, layout: Layout, ridden: Ridden) -> Measure
     more = {
         "torque_rms_n_m": float(np.sqrt(np.mean(loads.torque**2, axis=0)).max()),
         "preload_with_margin_n": float((missing / gain[gain > 0.0]).max()),
-        "slip_share": float(np.mean(touching & np.any(loads.traction_use > 1.0, axis=1))),
+        "slip_share": float(np.mean(np.any(loads.traction_use > 1.0, axis=1))),
         "lift_share": float(np.mean(~touching)),
         "lift_off_m_s2": able.lift_off.worst,
         "acceleration_by_traction_rad_s2": able.by_traction.worst,

@@ -33,7 +33,13 @@ SIZE = 27  # of motors, stage, friction, damping and losses; |motors| + |stage|
 
 
 class SphereOnWheels:
-    """The plant. `state` has what moves; see the module for its order."""
+    """The plant.
+
+    state: what moves, SIZE numbers in the order of the constants Q to WORK: orientation q_WS, rate
+    w_S (rad/s), the centre's place and speed against the stage d, d' (W, m, m/s); of each wheel
+    the angle that it lags (rad), its speed (rad/s), the deflection of its bristles; work (J) of
+    motors, stage, friction, damping and losses.
+    """
 
     def __init__(
         self,
@@ -43,7 +49,7 @@ class SphereOnWheels:
         passive: PassiveContacts,
         state: Sequence[float],
     ) -> None:
-        """Start at `state`, wheels at angle 0."""
+        """Start at `state`; the wheels are commanded to angle 0, and lag by what `state` says."""
         self._body: Final[PlantBody] = body
         self._wheels: Final[tuple[PlantWheel, ...]] = tuple(wheels)
         self._servo: Final[PlantServo] = servo
