@@ -48,7 +48,7 @@ class Weights:
         self._share()
 
     def step(self, losses: list[float]) -> None:
-        """Take in the losses of the next tick, one for each member, as if they had held all through."""
+        """Take in the losses of the next tick, one for each member, held all through it."""
         for i in range(len(self.late)):  # enumerate and zip make objects of every number
             late = self.late[i]
             self.late[i] = late + self._new * (losses[i] - late)
