@@ -56,12 +56,13 @@ def compare_command(
     different flights.
     """
     from ..review import compare_logs as compared
+    from ..review import plant_notes
     from .open_page import check_figure, check_pages
     from .text import one_json, say
 
     if html:
         (html,) = check_pages([html], inputs=logs, force=force)
-    figure = check_figure(figure, inputs=logs, force=force)
+    figure = check_figure(figure, inputs=logs, pages=[html], force=force)
     comparison = compared(logs, different_flights=different_flights)
     if html:
         from ..review.report import write_comparison
@@ -72,6 +73,9 @@ def compare_command(
 
         write_comparison_figure(comparison, figure)
     typer.echo(one_json(comparison.to_json()) if as_json else comparison_table(comparison))
+    for name, each in zip(comparison.names, comparison.reviews, strict=True):
+        for note in plant_notes(each.run):
+            say(f"{name}: {note}")
     if not comparison.clean:
         for name, each in zip(comparison.names, comparison.reviews, strict=True):
             for finding in each.findings:

@@ -122,8 +122,8 @@ def design_command(
     straight down that keeps its traction margin on all rides.
 
     The table has the layouts of which none is better in every objective, measured at every tick of
-    every ride. Exit status 0: done. 1: stopped, or a log is damaged; the same command goes on. 2:
-    bad input, nothing was written.
+    every ride. Exit status 0: done. 1: stopped; the same command goes on. 2: bad input, also a log
+    that is damaged, and nothing was written.
     """
     from ..design import (
         Problem,

@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import InputError, LogError
+from ..errors import InputError
+from .input_log import input_log
 from .options import AsJson
 
 if TYPE_CHECKING:
@@ -44,8 +45,9 @@ def export_command(
         ),
     ],
     topics: Annotated[
-        str, typer.Option("--topics", metavar="A,B", help="Topics to write; by default all.")
-    ] = "",
+        str | None,
+        typer.Option("--topics", metavar="A,B", help="Topics to write; by default all."),
+    ] = None,
     as_json: AsJson = False,
     force: Annotated[
         bool, typer.Option("--force", help="Replace a file that was exported earlier.")
@@ -65,7 +67,7 @@ def export_command(
     from .text import aligned, one_json
 
     real = check_output(output, kind_of(output), inputs=[log], force=force)
-    table = _table(log, [topic for topic in topics.split(",") if topic.strip()])
+    table = _table(log, _named(topics))
     with shown_share(output.name) as progress:
         write_export(table, real, progress)
     if as_json:
@@ -79,16 +81,23 @@ def export_command(
     typer.echo("\n".join(aligned(rows, "")))
 
 
+def _named(topics: str | None) -> list[str]:
+    """Topics of the option, none of which stands for all."""
+    if topics is None:
+        return []
+    named = [topic for topic in topics.split(",") if topic.strip()]
+    if not named:
+        raise InputError(f"--topics {topics!r}: names no topic; leave it out for all")
+    return named
+
+
 def _table(log: Path, topics: list[str]) -> "LogTable":
     """The log as a table. Raises InputError for whatever cannot be exported."""
     from ..export import log_table
-    from ..review import advice, open_log
+    from ..review import open_log
 
-    try:
+    with input_log(log):
         return log_table(open_log(log), topics)
-    except LogError as error:
-        todo = advice(log)
-        raise InputError(f"{error}; {todo}" if todo else str(error)) from error
 
 
 def _as_json(table: "LogTable", output: Path) -> dict[str, object]:

@@ -35,6 +35,7 @@ Examples:
   atlas-cueing live scenarios/live/flightgear.toml --setpoints 127.0.0.1:5600 --foxglove 8765
 
   atlas-cueing live scenarios/f16_rolls.toml --setpoints 127.0.0.1:5600 --from f16_rolls.mcap
+
   atlas-cueing live scenarios/live/packets.toml --listen 192.168.1.2 --set vehicle.key_file=key
 
 Ctrl-C, SIGTERM or a terminal that hangs up parks the platform and finishes the log; a second one

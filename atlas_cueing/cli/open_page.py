@@ -24,14 +24,23 @@ def check_pages(
     return real
 
 
-def check_figure(file: Path | None, *, inputs: Sequence[Path], force: bool) -> Path | None:
+def check_figure(
+    file: Path | None,
+    *,
+    inputs: Sequence[Path],
+    pages: Sequence[Path | None] = (),
+    force: bool,
+) -> Path | None:
     """Check where a figure is written, if one is, as `check_pages` does; give its real path.
 
-    Raises InputError for another ending than .svg and .pdf.
+    pages: that are written as well. Raises InputError for another ending than .svg and .pdf, and
+    MissingExtraError without what draws it.
     """
     if file is None:
         return None
-    from ..review.figures import figure_kind
+    from ..review.figures import check_plot, figure_kind
     from ..run import check_output
 
-    return check_output(file, figure_kind(file), inputs=inputs, force=force)
+    check_plot()
+    others = [page for page in pages if page]
+    return check_output(file, figure_kind(file), inputs=inputs, outputs=others, force=force)

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
+from .input_log import input_log
 from .options import AsJson, Force
 
 EPILOG = """
@@ -55,7 +56,8 @@ def plant_command(
     gyro and fix measure it. Told are how far it is from /motion in the end, slip, what the rider
     really feels, and energy. Every number of it that is not of the log or its platform is assumed.
 
-    Exit status 0: flown. 1: the log is damaged. 2: bad input, nothing written.
+    Without -o it only prints. Exit status 0: flown, however far the sphere went astray. 2: bad
+    input, also a log that is damaged, and nothing written.
     """
     from ..plant import fly_plant, plant_figures, plant_table, write_plant_log
     from ..review import open_run
@@ -64,7 +66,8 @@ def plant_command(
     from .text import one_json
 
     new = check_output(output, inputs=[log], force=force, fresh=True) if output else None
-    run = open_run(log)
+    with input_log(log):
+        run = open_run(log)
     table = plant_table(run.platform, settings or ())
     with shown_share("plant") as progress:
         flown = fly_plant(run.log, run.platform, feedback, table, progress)

@@ -76,7 +76,7 @@ def review_command(
     from .text import one_json
 
     html, replay = check_pages([html, replay], inputs=[log], force=force)
-    figure = check_figure(figure, inputs=[log], force=force)
+    figure = check_figure(figure, inputs=[log], pages=[html, replay], force=force)
     with _told_what_to_do(log, as_json):
         opened = open_log(log)
         alone = is_flight_alone(opened)

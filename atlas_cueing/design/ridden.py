@@ -12,10 +12,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import InputError
+from ..errors import InputError, LogError
 from ..loads import LoadModel
 from ..loads.balance import required_wrench
-from ..review import is_flight_alone, open_log
+from ..recording import Log
+from ..review import advice, is_flight_alone, open_log
 from ..rotations import Array
 
 
@@ -70,8 +71,8 @@ def log_files(paths: Sequence[Path]) -> list[Path]:
 def read_flights(model: LoadModel, logs: Sequence[Path]) -> tuple[Ridden, list[FlightName]]:
     """Read the motion of all logs, and say what it asks of the body of `model`.
 
-    Raises InputError for a log that holds a flight alone or numbers that are not finite, and
-    LogError for one that is damaged or not ours.
+    Raises InputError for a log that holds a flight alone or numbers that are not finite, and for
+    one that is damaged or not ours.
     """
     pieces, names = [], []
     for path in logs:
@@ -82,8 +83,16 @@ def read_flights(model: LoadModel, logs: Sequence[Path]) -> tuple[Ridden, list[F
     return Ridden(*(np.vstack(columns) for columns in zip(*pieces, strict=True))), names
 
 
+def _opened(path: Path) -> Log:
+    try:
+        return open_log(path)
+    except LogError as error:
+        todo = advice(path)
+        raise InputError(f"{error}; {todo}" if todo else str(error)) from error
+
+
 def _motion(path: Path) -> tuple[tuple[Array, Array, Array, Array], FlightName]:
-    log = open_log(path)
+    log = _opened(path)
     if is_flight_alone(log):
         raise InputError(
             f"log {path}: holds a flight alone, which no platform has flown; cue it first:"

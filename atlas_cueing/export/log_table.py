@@ -32,8 +32,8 @@ _UNITS = {  # by the end of a field, the longer ends first
     "_s": "s",
     "_w": "W",
 }
-_QUATERNION = re.compile(r"q_([a-z])([a-z])_[wxyz]")
-_VECTOR = re.compile(r"[a-z]+[xyz](_\w+)?")
+_QUATERNION = re.compile(r"[a-z]+_([a-z])([a-z])_[wxyz]")
+_VECTOR = re.compile(r"([a-z]+)[xyz](_\w+)?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,5 +163,8 @@ def _frame(topic: str, field: str) -> str:
     if found := _QUATERNION.fullmatch(field):
         after, before = found[1].upper(), found[2].upper()
         return f"{before} to {after}"
-    frames = {each.name: each.frame for each in ALL_TOPICS}
-    return frames.get(topic, "") if _VECTOR.fullmatch(field) else ""
+    known = next((each for each in ALL_TOPICS if each.name == topic), None)
+    vector = _VECTOR.fullmatch(field)
+    if known is None or vector is None:
+        return ""
+    return dict(known.other_frames).get(vector[1], known.frame)

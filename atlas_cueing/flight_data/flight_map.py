@@ -50,6 +50,10 @@ def _one_of(*words: str) -> BeforeValidator:
     return BeforeValidator(check)
 
 
+# on a command line a tab is typed as its two letters
+_TAB = BeforeValidator(lambda value: "\t" if value == r"\t" else value)
+
+
 def _unit(quantity: Quantity) -> BeforeValidator:
     def check(value: Any) -> str:
         """Return the unit, or refuse what is none of this quantity."""
@@ -182,7 +186,7 @@ class CsvTable(ScenarioTable):
     delimiter: by default what parts the header. decimal: a comma needs another delimiter.
     """
 
-    delimiter: Annotated[str, _one_of(",", ";", "\t", " ", "|")] | None = None
+    delimiter: Annotated[str, _one_of(",", ";", "\t", " ", "|"), _TAB] | None = None
     decimal: Annotated[str, _one_of(".", ",")] = "."
     header_line: Annotated[int, whole(1, 10_000)] = 1
 

@@ -1,5 +1,6 @@
 """From a log to a verdict, a picture and a comparison, by arithmetic of its own."""
 
+from .checks.plant_topics import plant_notes
 from .comparison import Comparison, compare_logs
 from .cue_again import cue_again
 from .finding import Finding
@@ -22,6 +23,7 @@ __all__ = [
     "judge",
     "open_log",
     "open_run",
+    "plant_notes",
     "recover_log",
     "review_flight",
     "review_log",

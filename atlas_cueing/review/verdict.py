@@ -14,6 +14,7 @@ from .checks.limited_flags import check_limited_flags
 from .checks.log_times import check_log_times
 from .checks.logged_loads import check_contact_loads, traction_notes
 from .checks.orientation import check_orientation
+from .checks.plant_topics import check_plant, plant_notes
 from .checks.run_status import check_status, state_notes
 from .checks.timestamps import check_timestamps
 from .finding import Finding
@@ -107,6 +108,7 @@ def judge(run: RecordedRun) -> Review:
                 *check_felt_force(run),
                 *check_limited_flags(run),
                 *check_contact_loads(run),
+                *check_plant(run),
             ]
             remarks = traction_notes(run)
         figures = evaluate_flight(run.log, run.flight, run.platform).metrics
@@ -114,6 +116,7 @@ def judge(run: RecordedRun) -> Review:
     lines = (
         *run.log.notes,
         *_origin_notes(run),
+        *plant_notes(run),
         *state_notes(run),
         *punctuality_notes(run),
         *remarks,

@@ -141,9 +141,10 @@ class Platform(ScenarioTable):
         along every axis.
         """
         if self.part is None:
+            wanted = " for traction.keep = true" if self._keeps_traction else ""
             raise InputError(
-                f"platform {self.name!r} has no masses; give it [[part]] tables (mass_kg, com_m,"
-                " inertia_kg_m2), and each [[wheel]] its friction"
+                f"platform {self.name!r} has no masses{wanted}; give it [[part]] tables (mass_kg,"
+                " com_m, inertia_kg_m2), and each [[wheel]] its friction"
             )
         drive, traction = self.drive or DriveTable(), self.traction or TractionTable()
         model = LoadModel(

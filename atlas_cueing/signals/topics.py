@@ -19,13 +19,15 @@ _VECTORS = {"w": "rad_s", "f": "m_s2", "alpha": "rad_s2", "p": "m", "v": "m_s", 
 class Topic:
     """A channel of flat double fields.
 
-    frame: axes of its vectors; empty where it has none.
+    frame: axes of its vectors; empty where it has none. other_frames: of vectors in other axes,
+        by their name.
     """
 
     name: str
     schema: str
     fields: tuple[str, ...]
     frame: str = ""
+    other_frames: tuple[tuple[str, str], ...] = ()
 
 
 def _fields(quaternion: str, vectors: str) -> tuple[str, ...]:
@@ -115,6 +117,8 @@ PLANT = Topic(
         ),
         *("residual1_rad_s", "residual2_rad_s", "residual3_rad_s"),
     ),
+    "W",
+    (("f", "S (FRD)"),),
 )
 """Of `plant` only, once a tick: where the simulated sphere really is (frame W), what the rider
 really feels (FRD, as /felt), how far that is from /motion, the observer's estimate; of each wheel

@@ -118,7 +118,20 @@ def test_a_missing_matplotlib_names_the_extra(
     for module in [m for m in sys.modules if m.split(".")[0] == "matplotlib"]:
         monkeypatch.delitem(sys.modules, module)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    ended = command("review", logs[0], "--figure", "x.svg")
+    ended = command("review", logs[0], "--figure", "x.svg", "--html", "x.html")
     assert (ended.status, ended.out) == (2, "")
+    assert not Path("x.html").exists(), "nothing is written before all can be"
     assert "pip install 'atlas_cueing[plot]'" in ended.err
     assert not Path("x.svg").exists()
+
+
+@pytest.mark.parametrize("command_line", [["review", "hedge.mcap"], ["compare", "hedge.mcap"]])
+def test_a_page_and_a_figure_of_one_name(
+    command: Command, logs: tuple[str, ...], command_line: list[str]
+) -> None:
+    assert logs
+    more = ["still.mcap"] if command_line[0] == "compare" else []
+    ended = command(*command_line, *more, "--html", "same.svg", "--figure", "same.svg")
+    assert (ended.status, ended.out) == (2, "")
+    assert "same.svg: is written twice" in ended.err
+    assert not Path("same.svg").exists()

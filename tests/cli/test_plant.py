@@ -1,12 +1,14 @@
 """`atlas-cueing plant` as its users see it."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from atlas_cueing import read_log
+from atlas_cueing.review import RecordedRun, judge, open_run
 
 from .conftest import Command
 
@@ -58,3 +60,65 @@ def test_bad_usage_writes_nothing(command: Command, log: Path) -> None:
         assert ended.status == 2, arguments
         assert message in ended.err, ended.err
     assert not (log.parent / "new.mcap").exists()
+
+
+@pytest.fixture
+def corrected(command: Command, log: Path) -> Path:
+    command("plant", log.name, "--feedback", "fix", "-o", "new.mcap")
+    return log.with_name("new.mcap")
+
+
+def altered(log: Path, topic: str, field: str, value: float) -> RecordedRun:
+    """The log's run with another number at its tick 30."""
+    run = open_run(log)
+    table = run.log.tables[topic]
+    values = table.values.copy()
+    values[30, table.fields.index(field)] = value
+    tables = {**run.log.tables, topic: replace(table, values=values)}
+    return replace(run, log=replace(run.log, tables=tables))
+
+
+@pytest.mark.parametrize(
+    ("topic", "field", "value", "told"),
+    [
+        ("/correction", "w2_rad_s", 40.0, "/wheels + /correction w2_rad_s: limit"),
+        ("/correction", "a1_rad_s2", -130.0, "/wheels + /correction a1_rad_s2: limit"),
+        ("/plant", "q_ws_w", 50.0, "/plant q_ws: length"),
+        ("/plant", "error_rad", 0.5, "/plant error_rad: error"),
+    ],
+)
+def test_a_review_finds_what_cannot_be(
+    corrected: Path, topic: str, field: str, value: float, told: str
+) -> None:
+    found = judge(altered(corrected, topic, field, value)).findings
+    assert [told in str(finding) for finding in found] == [True]
+    assert not judge(open_run(corrected)).findings
+
+
+def test_a_review_says_that_figures_are_of_the_schedule(command: Command, corrected: Path) -> None:
+    error = np.degrees(np.abs(read_log(corrected).column("/plant", "error_rad")))
+    note = (
+        f"figures are of the schedule; the simulated sphere of /plant was up to {error.max():.3g}"
+    )
+    assert note in command("review", corrected.name).out
+    assert f"new: {note}" in command("compare", "short.mcap", corrected.name).err
+    assert "schedule" not in command("review", "short.mcap").out
+
+
+def test_units_and_frames_of_what_it_writes(command: Command, corrected: Path) -> None:
+    command("export", corrected.name, "-o", "new.csv")
+    lines = corrected.with_name("new.csv").read_text().splitlines()
+    for line in (
+        "# plant.q_ws_w, 1, S to W",
+        "# plant.estimate_ws_w, 1, S to W",
+        "# plant.wz_rad_s, rad/s, W",
+        "# plant.fx_m_s2, m/s^2, S (FRD)",
+    ):
+        assert line in lines
+
+
+def test_a_damaged_log_is_bad_input(command: Command, log: Path) -> None:
+    log.write_bytes(log.read_bytes()[:-3000])
+    ended = command("plant", log.name, "-o", "new.mcap")
+    assert ended.status == 2
+    assert "try: atlas-cueing recover short.mcap" in ended.err

@@ -230,3 +230,7 @@ def test_every_map_of_the_package_is_one() -> None:
         found = load_map(name)
         assert found.name == name
         assert found.description
+
+
+def test_a_tab_as_it_is_typed() -> None:
+    assert load_map("csv", [r"csv.delimiter=\t"]).csv.delimiter == "\t"

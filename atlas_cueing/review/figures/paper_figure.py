@@ -63,15 +63,22 @@ def figure_kind(file: Path) -> Kind:
     return kind
 
 
-@contextmanager
-def paper_style() -> Iterator[None]:
-    """Draw in the style of all figures. Raises MissingExtraError without matplotlib."""
+def check_plot() -> None:
+    """Raise MissingExtraError without matplotlib."""
     try:
-        import matplotlib as mpl
+        import matplotlib as mpl  # noqa: F401
     except ModuleNotFoundError as error:
         if (error.name or "").partition(".")[0] != "matplotlib":
             raise
         raise MissingExtraError("a figure", "matplotlib", "plot") from error
+
+
+@contextmanager
+def paper_style() -> Iterator[None]:
+    """Draw in the style of all figures. Raises as `check_plot`."""
+    check_plot()
+    import matplotlib as mpl
+
     with mpl.rc_context(_STYLE):  # type: ignore[arg-type]  # its types know only some of the keys
         yield
 
