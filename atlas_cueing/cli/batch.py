@@ -59,7 +59,7 @@ A file with a [sweep] table stands for many runs:
   cueing.align_rate_deg_s = { low = 0.5, high = 10.0 }
 """  # noqa: E501 - commands to copy
 
-SORTED_BY = "direction_rms_rad"
+SORTED_BY = "mismatch"  # an rms of the direction is 0 as well where no tick has one
 _SHOWN_NAMES = 5  # metrics that a wrong --sort is answered with
 
 Paths: TypeAlias = Annotated[
