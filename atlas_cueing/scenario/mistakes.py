@@ -10,6 +10,7 @@ from typing import Any, TypeAlias
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
+from ..cueing import METHODS
 from ..cueing.own.sources import installed_methods
 from ..errors import Mistake
 from .tables import ScenarioTable, tables_in
@@ -122,9 +123,9 @@ def allowed(detail: ErrorDetails, table: type[ScenarioTable]) -> str:
     """Say what is allowed where pydantic found this error in a table."""
     kind, context = detail["type"], detail.get("ctx", {})
     if kind == "extra_forbidden":
+        *where, word = detail["loc"]
         return (
-            "unknown key;"
-            f" {nearest(str(detail['loc'][-1]), _known_keys(table, detail['loc'][:-1]))}"
+            f"unknown key; {nearest(str(word), _known_keys(table, where))}{_of_others(where, word)}"
         )
     if kind == "missing":
         return "missing"
@@ -137,6 +138,18 @@ def allowed(detail: ErrorDetails, table: type[ScenarioTable]) -> str:
     if kind == "allowed":
         return f"allowed: {context['allowed']}"
     return detail["msg"]
+
+
+def _of_others(where: Sequence[str | int], word: str | int) -> str:
+    """Say which cueing methods have a key that the chosen one has not."""
+    if len(where) != 2 or where[0] != "cueing":
+        return ""
+    others = [
+        method.name
+        for method in METHODS.values()
+        if any(word == parameter.key for parameter in method.parameters)
+    ]
+    return f"; it is a key of {', '.join(others)}, and not of {where[1]}" if others else ""
 
 
 def _methods(tags: str) -> list[str]:

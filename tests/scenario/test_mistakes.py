@@ -1,14 +1,19 @@
+from pathlib import Path
+
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from atlas_cueing.cueing import METHODS
+from atlas_cueing.errors import ScenarioError
+from atlas_cueing.scenario import load_scenario
 from atlas_cueing.scenario.mistakes import FileNamer, dotted, mistakes_of, nearest, shown
 from atlas_cueing.scenario.platform_file import Platform, presets
 from atlas_cueing.scenario.reading import read_toml
 
 from .conftest import Refused
-from .texts import AIRCRAFT
+from .texts import AIRCRAFT, SCRIPT
 
 KNOWN = ", ".join(sorted([*METHODS, "FILE.py:CLASS"]))
 
@@ -145,3 +150,15 @@ def test_dotted(key: list[str | int]) -> None:
     assert text.isprintable()
     if all(str(part).isprintable() for part in key):
         assert text == ".".join(map(str, key))
+
+
+def test_a_key_of_other_methods_is_told(tmp_path: Path) -> None:
+    (tmp_path / "s.toml").write_text(SCRIPT)
+    with pytest.raises(ScenarioError) as error:
+        load_scenario(tmp_path / "s.toml", ["cueing.method=still", "cueing.rotation_gain=0.5"])
+    (line,) = str(error.value).splitlines()
+    assert line.endswith(
+        "it is a key of attitude, blend, force, perceptual, hedge, classical, and not of still"
+    )
+    with pytest.raises(ScenarioError, match=r"did you mean 'floor'\?$"):
+        load_scenario(tmp_path / "s.toml", ["cueing.flor=1"])
