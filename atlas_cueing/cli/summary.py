@@ -43,6 +43,9 @@ def end(result: "RunResult") -> None:
 def _evaluation(result: "RunResult") -> list[str]:
     """What was felt, what moved, and the use of the limits."""
     metrics, use = result.evaluation.metrics, result.evaluation.limit_use
+    if metrics.get("ticks") == 0.0:
+        never = "none of rider and pilot: the ride never came to running"
+        return aligned([("figures", never), *_limit_rows(use)], "")
     return [
         *_error_table(metrics),
         *aligned(_phrase_rows(metrics), ""),

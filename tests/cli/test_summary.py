@@ -1,8 +1,11 @@
+from dataclasses import replace
 from math import inf, pi
 from pathlib import Path
 
+from short_scenario import Load
+
 from atlas_cueing.cli.summary import kinematics, platform_summary, run_summary
-from atlas_cueing.run import Evaluation, RunResult
+from atlas_cueing.run import Evaluation, RunResult, run_scenario
 from atlas_cueing.scenario import load_platform
 
 RESULT = RunResult(
@@ -66,3 +69,17 @@ def test_platform() -> None:
     rows = [[float(x) for x in line.split()] for line in lines if line.startswith("  ")]
     assert rows[:3] == [[0, -1, 0], [0, 0, -1], [-1, 0, 0]]
     assert len(rows) == 9
+
+
+def test_a_ride_that_never_ran_has_no_figures_of_a_rider(load: Load, tmp_path: Path) -> None:
+    """Zeros of no samples would look like the best ride there is."""
+    result = run_scenario(load("duration_s=0.2"), tmp_path / "log.mcap")
+    whole = run_summary(result)
+    assert "mismatch" in whole
+    assert "rider less pilot" in whole
+    metrics = {**dict.fromkeys(result.evaluation.metrics, 0.0), "ticks": 0.0}
+    none = run_summary(replace(result, evaluation=replace(result.evaluation, metrics=metrics)))
+    assert "figures      " in none
+    assert "never came to running" in none
+    assert not [word for word in ("mismatch", "rider less pilot", "net turns") if word in none]
+    assert "wheel speed" in none
