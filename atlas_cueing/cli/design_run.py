@@ -257,6 +257,7 @@ def _told() -> Iterator[Callable[[str, float], None]]:
     last = perf_counter()
 
     def line(what: str, _: float) -> None:
+        """Say where the work is, at most every few seconds."""
         nonlocal last
         if perf_counter() - last >= _LINE_EVERY:
             last = perf_counter()

@@ -226,9 +226,11 @@ def _part(tell: Tell, name: str) -> Callable[[int], Callable[[], None]]:
     """A function that counts the pieces of a part of the work, and tells their share."""
 
     def of(count: int) -> Callable[[], None]:
+        """Begin a part of `count` pieces; what is returned counts one of them."""
         done = 0
 
         def one() -> None:
+            """Count one piece, and tell."""
             nonlocal done
             done += 1
             tell(f"{name}: {done} of {count}", done / count)
