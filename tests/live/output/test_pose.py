@@ -178,7 +178,8 @@ def test_a_loop_that_is_killed_leaves_the_pose_at_which_the_drives_rest(
     with child(loop) as pid:
         if killed:
             until((tmp_path / "ready").exists)
-            assert read_pose(file, NAME)[0].wheel_angle == pytest.approx(last.wheel_angle)
+            # what was sent last is written 0.1 s after what was written first
+            until(lambda: read_pose(file, NAME)[0].wheel_angle == pytest.approx(last.wheel_angle))
             os.kill(pid, signal.SIGKILL)
     until(lambda: file.exists() and not moving(file) and file_moved(file))
     expected = pose_after_stop(q, last, six_axes(1e-9, *LIMITS), J)
