@@ -1,18 +1,21 @@
 """`atlas-cueing live`: the pipeline against the clock."""
 
-from math import inf
-from typing import TYPE_CHECKING
+from math import inf, radians
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..errors import InputError
 from .live_options import (
     DriveStatus,
     DriveTimeout,
+    DriveTolerance,
     Duration,
+    Feedback,
     Foxglove,
     From,
     KeyFile,
     Lead,
     Listen,
+    Plant,
     PoseFile,
     Priority,
     Rate,
@@ -36,12 +39,25 @@ Examples:
 
   atlas-cueing live scenarios/f16_rolls.toml --setpoints 127.0.0.1:5600 --from f16_rolls.mcap
 
+  atlas-cueing live scenarios/f16_rolls.toml --plant --feedback fix
+
   atlas-cueing live scenarios/live/packets.toml --listen 192.168.1.2 --set vehicle.key_file=key
 
 Ctrl-C, SIGTERM or a terminal that hangs up parks the platform and finishes the log; a second one
 stops it at once. This is not a safety device: emergency stop and the monitoring of speed and
 position belong to hardware.
 """
+
+
+class _Watch(NamedTuple):
+    """By default: how long drives may be silent, and how far a wheel may be off its command."""
+
+    timeout_ms: float
+    tolerance_deg: float
+
+
+# a plant's servos lag, and its process may be held up by the machine (assumed)
+_REAL, _PLANT = _Watch(50.0, 0.1), _Watch(300.0, 10.0)
 
 
 def live_command(
@@ -56,7 +72,10 @@ def live_command(
     key: KeyFile = None,
     lead: Lead = 8.0,
     no_drive_status: DriveStatus = False,
-    drive_timeout: DriveTimeout = 50.0,
+    drive_timeout: DriveTimeout = None,
+    drive_tolerance: DriveTolerance = None,
+    feedback: Feedback = "none",
+    plant: Plant = False,
     pose: PoseFile = None,
     from_: From = None,
     foxglove: Foxglove = None,
@@ -79,18 +98,24 @@ def live_command(
     failed; the log is complete. 2: bad input, nothing was written.
     """
     from ..live import LiveOptions
+    from .live_plant import check_feedback
     from .live_ride import DriveLink, Pages, fly, open_scenario
 
     if wait and not view:
         raise InputError("--wait needs --view, where 'engage' can be pressed")
+    link = DriveLink(setpoints, key, not no_drive_status, pose, from_, plant)
+    check_feedback(feedback, link)
     loaded, log = open_scenario(scenario, output, settings, key, trust_models, force)
+    watch = _PLANT if plant else _REAL
     options = LiveOptions(
         *(rate, _duration(duration, loaded), view, not wait, priority),
         lead=1e-3 * lead,
-        drive_timeout=1e-3 * drive_timeout,
+        drive_timeout=1e-3 * (drive_timeout or watch.timeout_ms),
+        drive_tolerance=radians(drive_tolerance or watch.tolerance_deg),
+        feedback=feedback,
+        occupied=not plant,
         listen=listen,
     )
-    link = DriveLink(setpoints, key, not no_drive_status, pose, from_)
     pages = Pages(port if view else None, foxglove)
     fly(loaded, log, options, link, pages, as_json=as_json)
 

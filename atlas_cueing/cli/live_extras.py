@@ -30,6 +30,7 @@ class DriveLink:
     listen: they tell what they do.
     pose: file with the platform's last pose.
     stated: where the platform stands.
+    plant: a simulated platform stands for the drives.
     """
 
     address: str | None = None
@@ -37,6 +38,7 @@ class DriveLink:
     listen: bool = True
     pose: Path | None = None
     stated: str | None = None
+    plant: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -53,10 +53,11 @@ DriveStatus: TypeAlias = Annotated[
     ),
 ]
 DriveTimeout: TypeAlias = Annotated[
-    float,
+    float | None,
     typer.Option(
         "--drive-timeout",
-        help="Stop when the drives are silent for so long while they move. 30 to 1000.",
+        help="Stop when the drives are silent for so long while they move, 30 to 1000; 50 by"
+        " default, 300 with --plant.",
         metavar="MS",
     ),
 ]
@@ -100,5 +101,32 @@ Priority: TypeAlias = Annotated[
     typer.Option(
         "--priority",
         help="Ask for real-time priority, locked memory and a core; report what is refused.",
+    ),
+]
+DriveTolerance: TypeAlias = Annotated[
+    float | None,
+    typer.Option(
+        "--drive-tolerance",
+        help="Stop when a wheel is so far off its command; 0.1 by default, 10 with --plant.",
+        metavar="DEG",
+        min=0.01,
+        max=90.0,
+    ),
+]
+Feedback: TypeAlias = Annotated[
+    str,
+    typer.Option(
+        "--feedback",
+        help="Correct the attitude by what the drives tell of the cabin's sensors: none, gyro, fix"
+        " (gyro and fixes from outside).",
+        metavar="KIND",
+    ),
+]
+Plant: TypeAlias = Annotated[
+    bool,
+    typer.Option(
+        "--plant",
+        help="Drive a simulated platform whose wheels slip, in place of --setpoints; its log gets"
+        " /plant, where the cabin really was.",
     ),
 ]

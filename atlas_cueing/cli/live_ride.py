@@ -11,6 +11,7 @@ import typer
 from .live_extras import DriveLink as DriveLink
 from .live_extras import Pages as Pages
 from .live_extras import drives, followers, standing
+from .live_plant import plant
 from .text import say
 
 if TYPE_CHECKING:
@@ -73,12 +74,13 @@ def _flown(
     from ..live import LiveSession
 
     with ExitStack() as stack:
-        senders, feedback = stack.enter_context(drives(link, scenario))
         pose, file = stack.enter_context(standing(link, scenario))
+        link, with_plant = stack.enter_context(plant(link, scenario))
+        senders, feedback = stack.enter_context(drives(link, scenario))
         session = LiveSession(scenario, log, replace(options, pose=pose, pose_file=file))
         lines = stack.enter_context(followers(session, scenario, pages, tell=tell))
         if not pose.is_home:
             say(f"starts stopped, {pose}; a reset brings it slowly home")
         for line in lines:
             say(line)
-        return session.run(senders, lambda: stop.count, feedback)
+        return with_plant(session.run(senders, lambda: stop.count, feedback))

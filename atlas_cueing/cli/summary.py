@@ -68,11 +68,21 @@ def _timing_rows(live: "LiveFigures") -> list[tuple[str, str]]:
     )
     rows.append(("missed deadlines", missed))
     rows += _drive_rows(live.drives)
+    rows += _plant_rows(live.plant)
     granted, refused = realtime["granted"], realtime["refused"]
     if granted or refused:
         denied = f"; refused: {'; '.join(refused)}" if refused else ""
         rows.append(("real time", f"{', '.join(granted) or 'nothing granted'}{denied}"))
     return rows
+
+
+def _plant_rows(told: Mapping[str, float]) -> list[tuple[str, str]]:
+    """The line on the simulated platform; none without one."""
+    if not told:
+        return []
+    end, most = told["orientation_error_end_deg"], told["orientation_error_max_deg"]
+    slip = told["slip_max_m_s"]
+    return [("plant", f"off by {most:.3g} deg at most, {end:.3g} at the end; slip {slip:.3g} m/s")]
 
 
 def _drive_rows(told: Mapping[str, float | str]) -> list[tuple[str, str]]:

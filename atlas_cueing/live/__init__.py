@@ -8,9 +8,10 @@ Data goes one way, input -> control -> output. Nothing behind the ring can hold 
 before the guard can move the platform beyond its limits. `LiveSession` puts it all together.
 """
 
+from .live_options import LiveOptions
 from .loop import Drives, Loop, Output
 from .open_source import open_source
-from .session import LiveOptions, LiveSession
+from .session import LiveSession
 
 __all__ = [
     "Drives",

@@ -3,11 +3,10 @@
 import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict
 from math import degrees, radians
 from pathlib import Path
 
-from ..errors import InputError
 from ..recording import McapRecorder
 from ..run import Evaluation, LiveFigures, RunResult, build_pipeline, evaluate_log, open_recorder
 from ..scenario import Scenario
@@ -23,20 +22,16 @@ from .control import (
     PlatformController,
     RunOutcome,
 )
-from .control.drive_monitor import TIMEOUT
-from .control.pose import Pose
+from .held_attitude import held_attitude
 from .input import Source, no_vehicle
 from .kept_contacts import contact_check
-from .loop import LEAD, Drives, Loop, Output
+from .live_options import LiveOptions
+from .loop import Drives, Loop, Output
 from .open_source import open_source
 from .output import PoseProcess, Recorded, RecorderProcess, limits_hash
 from .realtime import RealtimeScheduling, collections, realtime_scheduling
 from .timing import LoopTiming
 
-RATES = (100.0, 1000.0)  # Hz, lowest and highest of the loop
-DEFAULT_RATE = 500.0  # Hz
-DRIVE_TIMEOUTS = (0.03, 1.0)  # s, shortest and longest silence of the drives
-LEADS = (0.002, 0.08)  # s, shortest and longest of the set points
 # rad and m that what was sent may be behind what was commanded
 _MOST_BEHIND = (radians(0.1), 1e-3)
 RING_SECONDS = 10.0  # that the recorder may be held up without a loss
@@ -44,36 +39,6 @@ RING_SECONDS = 10.0  # that the recorder may be held up without a loss
 MOST_EVALUATED = 600_000
 _WARM_UP = 200  # ticks of a pipeline that nothing follows: first calls are slow
 _UNRECORDED = ("recording_failed", "recorder_died")
-
-
-@dataclass(frozen=True, slots=True)
-class LiveOptions:
-    """How to run.
-
-    rate: of the loop, Hz; a tick takes whole nanoseconds.
-    lead: of the set points, s; so much lateness is borne, less a millisecond.
-    duration: until the platform parks, s.
-    attended: the operator's buttons can be pressed, and the run waits for them.
-    engage: engage at the start.
-    priority: ask the system for SCHED_FIFO, locked memory and a core of its own.
-    announce: let the recorder report changes of state on stderr; the command's desk does it itself.
-    pose: where the platform stands; anywhere but at home the run starts stopped.
-    pose_file: where the pose is kept; None for nowhere.
-    drive_timeout: s that the drives may be silent while the platform moves, if they speak.
-    listen: address of this machine that packets come to; None for the scenario's, a loopback.
-    """
-
-    rate: float = DEFAULT_RATE
-    duration: float = float("inf")
-    attended: bool = False
-    engage: bool = True
-    priority: bool = False
-    announce: bool = False
-    lead: float = LEAD
-    drive_timeout: float = TIMEOUT
-    listen: str | None = None
-    pose: Pose = field(default_factory=Pose)
-    pose_file: Path | None = None
 
 
 class LiveSession:
@@ -92,26 +57,13 @@ class LiveSession:
 
         Raises InputError (nothing was written) when the scenario cannot fly live or at that rate.
         """
-        if not RATES[0] <= options.rate <= RATES[1]:
-            raise InputError(
-                f"--rate {options.rate:g} Hz, allowed: {RATES[0]:g} <= rate <= {RATES[1]:g}"
-            )
-        if not LEADS[0] <= options.lead <= LEADS[1]:
-            shortest, longest = (1e3 * lead for lead in LEADS)
-            raise InputError(
-                f"--lead {1e3 * options.lead:g} ms, allowed: {shortest:g} <= lead <= {longest:g}"
-            )
-        if not DRIVE_TIMEOUTS[0] <= options.drive_timeout <= DRIVE_TIMEOUTS[1]:
-            shortest, longest = (1e3 * timeout for timeout in DRIVE_TIMEOUTS)
-            raise InputError(
-                f"--drive-timeout {1e3 * options.drive_timeout:g} ms, allowed: {shortest:g} <="
-                f" timeout <= {longest:g}"
-            )
+        options.check()
         self._scenario = scenario
         self._log = Path(log)
         self._options = options
         self._dt = round(1e9 / options.rate) / 1e9
         self._pipeline = build_pipeline(scenario, self._dt)
+        self._attitude = held_attitude(scenario.platform, options.feedback, self._dt, options.pose)
         self._source: Source = open_source(scenario, options.listen)
         self.ring: Ring = live_ring(RING_SECONDS, options.rate)
         self.buttons = OperatorButtons()
@@ -141,10 +93,10 @@ class LiveSession:
             self.helpers.add(
                 lambda: recorder.alive, "the recorder has died: nothing more is recorded"
             )
-            keeper, carries = self._pose_process(), bool(drives)
+            keeper, carries = self._pose_process(), bool(drives) and self._options.occupied
             monitor = self._monitor(feedback)
             controller = self._controller(stop_requests, monitor, carries=carries)
-            writer = LiveWriter(self.ring)
+            writer = LiveWriter(self.ring, self._attitude)
             outputs: list[Output] = [writer, keeper] if keeper else [writer]
             drives = [*drives, keeper] if keeper else drives
             loop = Loop(
@@ -175,7 +127,12 @@ class LiveSession:
     def _monitor(self, feedback: DriveFeedback | None) -> DriveMonitor | None:
         platform = self._scenario.platform
         limits = limits_hash(platform.wheel_limit_values(), platform.stage_limit_values())
-        return DriveMonitor(feedback, limits, self._options.drive_timeout) if feedback else None
+        if feedback is None:
+            return None
+        options = self._options
+        return DriveMonitor(
+            feedback, limits, options.drive_timeout, self._attitude, options.drive_tolerance
+        )
 
     def _controller(
         self, stop_requests: Callable[[], int], monitor: DriveMonitor | None, *, carries: bool
@@ -199,7 +156,9 @@ class LiveSession:
             losses=self.helpers.losses,
             carries=carries,
         )
-        controller = LiveController(platform_controller, guard, self._source, operator, monitor)
+        controller = LiveController(
+            platform_controller, guard, self._source, operator, monitor, self._attitude
+        )
         if options.engage and options.pose.is_home:
             controller.engage()
         return controller
@@ -255,6 +214,7 @@ class LiveSession:
             live="true",
             rate_hz=rate,
             drive_status=spoken,
+            attitude=self._attitude is not None,
         )
 
     def _evaluation(self, ticks: int) -> Evaluation:

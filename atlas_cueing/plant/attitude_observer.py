@@ -16,6 +16,8 @@ from typing import Final
 
 from ..rotation import Quat, Vec3, conjugate, exp, log, multiply, rotate, scale
 
+_SAME: Final = 1e-6  # s
+
 
 class AttitudeObserver:
     """gain and bias_gain: shares of a fix, 0 to 1; a fix every `period` s; memory in s."""
@@ -40,12 +42,22 @@ class AttitudeObserver:
         while self._past[0][0] < time - self._memory:
             del self._past[0]
 
+    def at(self, time: float) -> Quat | None:
+        """Return the estimate of `time` (s); None before the memory, and after the last turn."""
+        before = None
+        for t, q in self._past:
+            if abs(t - time) < _SAME:
+                return q
+            if t > time:
+                return None if before is None else _between(before, (t, q), time)
+            before = (t, q)
+        return None
+
     def take_fix(self, time: float, fix_WS: Quat) -> None:
         """Take a fix that was seen at `time` (s); one that is older than the memory is dropped."""
-        seen = [q for t, q in self._past if abs(t - time) < 1e-6]
-        if not seen:
+        then = self.at(time)
+        if then is None:
             return
-        then = seen[-1]
         error = log(multiply(fix_WS, conjugate(then)))
         pull = exp(scale(self._gain, error))
         self.q_WS = multiply(pull, self.q_WS)
@@ -54,3 +66,9 @@ class AttitudeObserver:
         e, b = rotate(conjugate(then), error), self.bias_S
         k = self._bias_gain
         self.bias_S = (b[0] - k * e[0], b[1] - k * e[1], b[2] - k * e[2])
+
+
+def _between(one: tuple[float, Quat], other: tuple[float, Quat], time: float) -> Quat:
+    """The orientation at `time` of a constant rate from one (time, q_WS) to the other."""
+    share = (time - one[0]) / (other[0] - one[0])
+    return multiply(one[1], exp(scale(share, log(multiply(conjugate(one[1]), other[1])))))

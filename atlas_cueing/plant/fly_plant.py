@@ -8,7 +8,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..recording import Log
-from ..rotation import Mat3, Quat, Vec3, geodesic, rotate
+from ..rotation import Mat3, Quat, Vec3, geodesic
 from ..rotations import Array
 from ..scenario import Platform
 from ..scenario.plant_table import PlantTable
@@ -16,7 +16,8 @@ from ..signals import CORRECTION
 from .attitude_loop import FEEDBACKS, AttitudeLoop, LoopSettings
 from .build_plant import PlantConstants, Start, build_plant
 from .drive_command import Cubic, DriveCommand, hermite, plus
-from .sphere_on_wheels import GRAVITY, WORK, SphereOnWheels
+from .plant_felt import plant_felt
+from .sphere_on_wheels import WORK, SphereOnWheels
 
 _EVERY = 60  # ticks between two reports of progress
 _TORQUES = ("t1_n_m", "t2_n_m", "t3_n_m")
@@ -178,7 +179,7 @@ class _Flight:
             s.log_time[k],
             *q,
             *sphere.rate_W(),
-            *self._felt(k, command, t),
+            *plant_felt(sphere, command, t, _three(s.a[k]), self._head),
             geodesic(s.q[k], q),
             *estimate,
             geodesic(estimate, q),
@@ -188,19 +189,6 @@ class _Flight:
             *sphere.state[16:19],
             *loop.residual,
         ]
-
-    def _felt(self, k: int, command: DriveCommand, t: float) -> Vec3:
-        """Specific force at the head, m/s^2, FRD: f = R^T (a + d'' - g) + alpha x r + w x w x r."""
-        alpha, against = self._sphere.accelerations(command, t)
-        a, q, w = self._schedule.a[k], self._sphere.orientation(), self._sphere.state[4:7]
-        back = (q[0], -q[1], -q[2], -q[3])
-        f = np.array(
-            rotate(back, (a[0] + against[0], a[1] + against[1], a[2] + against[2] + GRAVITY))
-        )
-        if any(self._head):
-            r = np.array(self._head)
-            f = f + np.cross(alpha, r) + np.cross(w, np.cross(w, r))
-        return (float(f[0]), -float(f[1]), -float(f[2]))
 
     def _correction_row(self, k: int, before: bool = False) -> list[float]:
         c = self._loop.corrections

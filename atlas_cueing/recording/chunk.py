@@ -11,7 +11,16 @@ from numpy.typing import NDArray
 
 from ..rotation import Vec3
 from ..rotations import Array
-from ..signals import ROW, TIMING, TOPICS, LoadColumns, Topic, direction_error, felt
+from ..signals import (
+    CORRECTION,
+    ROW,
+    TIMING,
+    TOPICS,
+    LoadColumns,
+    Topic,
+    direction_error,
+    felt,
+)
 from .schemas import TF
 from .transforms import RATE_HZ, put_transforms, transform_template
 from .wire import Records, Times, flat_dtype, flat_template, put, record_content, repeat
@@ -178,6 +187,12 @@ def with_loads(ticks: Array, loads: LoadColumns) -> Array:
     """Append the fields of /loads to ticks (n, fields of TOPICS or of LIVE_TOPICS)."""
     columns = loads(ticks[:, _Q], ticks[:, _W], ticks[:, _ALPHA], ticks[:, _A])
     return np.column_stack([ticks, ticks[:, _MOTION], columns])
+
+
+def with_attitude(ticks: Array, rows: Array) -> Array:
+    """Append the fields of /correction and /estimate to ticks; rows (n, ATTITUDE_ROW)."""
+    time, size = ticks[:, _MOTION], len(CORRECTION.fields) - 1
+    return np.column_stack([ticks, time, rows[:, :size], time, rows[:, size:]])
 
 
 def felt_columns(rows: Array, head_S: Vec3) -> Array:

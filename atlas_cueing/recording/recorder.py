@@ -12,6 +12,9 @@ from ..rotation import Vec3
 from ..rotations import Array
 from ..signals import (
     ALL_TOPICS,
+    ATTITUDE_ROW,
+    CORRECTION,
+    ESTIMATE,
     LIVE_ROW,
     LIVE_TOPICS,
     LOADS,
@@ -21,7 +24,7 @@ from ..signals import (
     Tick,
     tick_row,
 )
-from .chunk import ELAPSED, ChunkEncoder, Extra, with_felt, with_loads
+from .chunk import ELAPSED, ChunkEncoder, Extra, with_attitude, with_felt, with_loads
 from .container import Container
 from .part_file import PartFile
 from .schemas import STATUS, STATUS_SCHEMA, TF, message_class, schema_of, status_schema
@@ -56,6 +59,7 @@ class McapRecorder:
         started_ns: int | None = None,
         observer: Callable[[Array], None] | None = None,
         loads: LoadColumns | None = None,
+        attitude: bool = False,
     ) -> None:
         """Open the log.
 
@@ -74,6 +78,8 @@ class McapRecorder:
                 `append` and `flush` do, and it is not called again. The fields of /loads follow
                 where the log has it.
             loads: makes the numbers of /loads, which is left out without it.
+            attitude: ATTITUDE_ROW numbers follow in each row of a live log, for /correction and
+                /estimate.
 
         Raises OutputError when the file cannot be written, a topic is unknown, or a chunk is too
         large or empty.
@@ -88,7 +94,10 @@ class McapRecorder:
         self._loads = loads
         self._topics = TOPICS if started_ns is None else LIVE_TOPICS
         self._topics = (*self._topics, LOADS) if loads else self._topics
+        self._topics = (*self._topics, CORRECTION, ESTIMATE) if attitude else self._topics
         self._row = ROW if started_ns is None else LIVE_ROW
+        self._row += ATTITUDE_ROW if attitude else 0
+        self._attitude = attitude
         self._full = chunk_ticks * self._row * 8  # bytes of rows that make a chunk
         self._statuses: list[tuple[float, bytes]] = []
         self._latest = _BEFORE_START  # s; time of the last tick written
@@ -112,7 +121,7 @@ class McapRecorder:
             self.flush()
 
     def append_live(self, row: bytes) -> None:
-        """Keep one tick of a live log: LIVE_ROW doubles as they lie in memory.
+        """Keep one tick of a live log: its row as it lies in memory.
 
         Raises as `append`.
         """
@@ -183,8 +192,10 @@ class McapRecorder:
         times = self._log_times(rows)
         self._latest = float(rows[-1, 0]) if len(rows) else self._latest
         self._latest_log_time = int(times[-1]) if len(rows) else self._latest_log_time
-        ticks = with_felt(rows, self._head_S)
+        own = rows[:, :-ATTITUDE_ROW] if self._attitude else rows
+        ticks = with_felt(own, self._head_S)
         ticks = with_loads(ticks, self._loads) if self._loads else ticks
+        ticks = with_attitude(ticks, rows[:, -ATTITUDE_ROW:]) if self._attitude else ticks
         chunk = self._encoder.encode(ticks, times, self._status_records(ticks[:, 0], times))
         self._statuses = []
         try:

@@ -22,6 +22,7 @@ def open_recorder(
     flown: Mapping[str, str] | None = None,
     attachments: Mapping[str, bytes] | None = None,
     started_ns: int | None = None,
+    attitude: bool = False,
     **more: str,
 ) -> McapRecorder:
     """Open the log of a run of `scenario`.
@@ -33,6 +34,7 @@ def open_recorder(
         flown: metadata of another log whose flight this is; kept where this one has none.
         attachments: files by name; those of the scenario by default.
         started_ns: makes it a live log: wall clock at its start, ns since 1970.
+        attitude: that of a live log is corrected.
         more: further metadata.
 
     Raises:
@@ -50,6 +52,7 @@ def open_recorder(
         skip_topics=recording.skip,
         observer=observer,
         started_ns=started_ns,
+        attitude=attitude,
         loads=load_columns(platform.load_model()) if platform.has_loads else None,
     )
 

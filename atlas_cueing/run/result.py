@@ -19,6 +19,7 @@ class LiveFigures:
     timing: punctuality of the loop by name, the unit in the name.
     realtime: `granted` and `refused`, what the operating system was asked for.
     drives: `drive_status` (none, one-way or monitored) and what the drives told, by name.
+    plant: where a simulated platform was, by name; empty without one.
     """
 
     faults: int
@@ -27,6 +28,7 @@ class LiveFigures:
     timing: Mapping[str, float]
     realtime: Mapping[str, list[str]]
     drives: Mapping[str, float | str] = field(default_factory=dict)
+    plant: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,4 +83,5 @@ def _live_json(live: LiveFigures) -> dict[str, object]:
         "timing": dict(live.timing),
         "realtime": dict(live.realtime),
         "drives": dict(live.drives),
+        **({"plant": dict(live.plant)} if live.plant else {}),
     }

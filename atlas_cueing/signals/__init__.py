@@ -9,7 +9,9 @@ from .state_change import StateChange
 from .states import Cue, Motion, Tick, Timing, VehicleState, WheelSpeeds
 from .topics import (
     ALL_TOPICS,
+    ATTITUDE_ROW,
     CORRECTION,
+    ESTIMATE,
     LIVE_ROW,
     LIVE_STATES,
     LIVE_TOPICS,
@@ -25,7 +27,9 @@ from .topics import (
 
 __all__ = [
     "ALL_TOPICS",
+    "ATTITUDE_ROW",
     "CORRECTION",
+    "ESTIMATE",
     "LIVE_ROW",
     "LIVE_STATES",
     "LIVE_TOPICS",

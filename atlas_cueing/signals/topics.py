@@ -138,12 +138,24 @@ CORRECTION = Topic(
 )
 """What the attitude loop adds to the schedule: angle, speed and acceleration of each wheel."""
 
-ALL_TOPICS = (*LIVE_TOPICS, LOADS, PLANT, CORRECTION)
+ESTIMATE = Topic(
+    "/estimate",
+    "atlas.Estimate",
+    ("time_s", "seen_s", "q_ws_w", "q_ws_x", "q_ws_y", "q_ws_z", "error_rad", "fix_age_s"),
+    "W",
+)
+"""Live runs that correct the attitude, once a tick: where the cabin was at `seen_s`, the time of
+the run at the newest status of the drives, how far that is from /motion of the same moment, and the
+age of the newest fix then (-1 before the first)."""
+
+ALL_TOPICS = (*LIVE_TOPICS, LOADS, PLANT, CORRECTION, ESTIMATE)
 """Whatever topic of flat doubles a log may hold."""
 
 
 ROW = sum(len(topic.fields) for topic in TOPICS[:-1])  # numbers in a row of `tick_row`
 LIVE_ROW = ROW + len(TIMING.fields)  # in a row of `live_row`: the fields of /timing follow
+# numbers of /correction and /estimate, without their times, that may follow a live row
+ATTITUDE_ROW = len(CORRECTION.fields) + len(ESTIMATE.fields) - 2
 
 
 def tick_row(tick: Tick) -> tuple[float, ...]:

@@ -2,15 +2,16 @@
 
 import json
 from struct import Struct
+from typing import Protocol
 
-from ..signals import LIVE_ROW, StateChange, Tick, Timing, live_row
+from ..signals import ATTITUDE_ROW, LIVE_ROW, StateChange, Tick, Timing, live_row
 from .ring import Ring
 
 TICK, STATUS, END = 1, 2, 3
 LONGEST_TEXT = 240  # characters of a state or reason; of a longer one the beginning is kept
-_row = Struct(f"={LIVE_ROW}d")
+_row, _attitude = Struct(f"={LIVE_ROW}d"), Struct(f"={ATTITUDE_ROW}d")
 # a character takes at most 6 bytes as JSON, and few do
-_SIZE = max(_row.size, 3 * (2 * LONGEST_TEXT + 60))
+_SIZE = max(_row.size + _attitude.size, 3 * (2 * LONGEST_TEXT + 60))
 
 
 def live_ring(seconds: float, rate: float) -> Ring:
@@ -18,15 +19,26 @@ def live_ring(seconds: float, rate: float) -> Ring:
     return Ring(max(256, round(1.1 * seconds * rate)), _SIZE)
 
 
+class Attitude(Protocol):
+    """Whoever corrects the attitude of a run."""
+
+    def row(self) -> tuple[float, ...]:
+        """Return the ATTITUDE_ROW numbers of the last tick."""
+
+
 class LiveWriter:
     """The loop's end of the ring; no call waits for a reader."""
 
-    def __init__(self, ring: Ring) -> None:
-        self._ring = ring
+    def __init__(self, ring: Ring, attitude: Attitude | None = None) -> None:
+        """Write to `ring`; the numbers of `attitude` follow those of a tick."""
+        self._ring, self._attitude = ring, attitude
 
     def tick(self, tick: Tick, timing: Timing) -> None:
         """Write one tick and its timing."""
-        self._ring.write(TICK, _row.pack(*live_row(tick, timing)))
+        row = _row.pack(*live_row(tick, timing))
+        if self._attitude:
+            row += _attitude.pack(*self._attitude.row())
+        self._ring.write(TICK, row)
 
     def status(self, time: float, state: str, reason: str) -> None:
         """Write a change of state at `time` (s)."""
@@ -39,7 +51,7 @@ class LiveWriter:
 
 def numbers(data: bytes) -> tuple[float, ...]:
     """Return the row of a TICK (`signals.live_row`)."""
-    return _row.unpack(data)
+    return _row.unpack_from(data)
 
 
 def status(data: bytes) -> StateChange:

@@ -5,6 +5,7 @@
 from dataclasses import replace
 
 from ...signals import Tick, VehicleState
+from .attitude_correction import AttitudeCorrection
 from .command import Command, command_of, standstill
 from .guard import Guard
 from .platform_controller import PlatformController
@@ -16,9 +17,14 @@ class CommandGate:
     A motion that was made too late for its slot waits here for the next one.
     """
 
-    def __init__(self, platform: PlatformController, guard: Guard) -> None:
-        """Start where the platform stands."""
-        self._platform, self._guard = platform, guard
+    def __init__(
+        self,
+        platform: PlatformController,
+        guard: Guard,
+        attitude: AttitudeCorrection | None = None,
+    ) -> None:
+        """Start where the platform stands; `attitude` corrects what goes out, the last of all."""
+        self._platform, self._guard, self._attitude = platform, guard, attitude
         # the last motion and command that went out
         self._last_motion = platform.motion
         self._last = standstill(platform.motion, platform.wheel_angle)
@@ -31,6 +37,11 @@ class CommandGate:
         return self._guard.standing
 
     @property
+    def settled(self) -> bool:
+        """Whether what went out last, correction included, was exactly at rest."""
+        return self.standing and (self._attitude is None or self._attitude.standing)
+
+    @property
     def reason(self) -> str:
         """Why the guard stops."""
         return self._guard.reason
@@ -38,6 +49,8 @@ class CommandGate:
     def restart(self) -> None:
         """After a stop: go on from where it has ended."""
         self._guard.start(standstill(self._last_motion, self._last.wheel_angle))
+        if self._attitude:
+            self._attitude.restart()
 
     def stand(self, vehicle: VehicleState) -> Tick:
         """Return a tick that stands where the platform stands."""
@@ -71,6 +84,13 @@ class CommandGate:
             self._waiting = None
         self._last_motion, self._last = tick.motion, command
         return tick, stopped
+
+    def corrected(self, due: int, tick: Tick, command: Command) -> Command:
+        """Return what the drives get for a command that has been let pass, due then (ns)."""
+        if self._attitude is None:
+            return command
+        q_WS, stopping = tick.motion.q_WS, self._guard.stopping
+        return self._attitude.corrected(due, command, q_WS, stopping=stopping)
 
 
 def _retimed(tick: Tick, time: float) -> Tick:

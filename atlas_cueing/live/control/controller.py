@@ -14,6 +14,7 @@ looked at when the tick begins and again when its motion has been made, for that
 from ...errors import VehicleError
 from ...signals import Tick
 from ..input.source import Source, SourceReading
+from .attitude_correction import AttitudeCorrection
 from .command import Command
 from .command_gate import CommandGate
 from .drive_monitor import DriveMonitor
@@ -45,10 +46,14 @@ class LiveController:
         source: Source,
         operator: OperatorInputs,
         drives: DriveMonitor | None = None,
+        attitude: AttitudeCorrection | None = None,
     ) -> None:
-        """Start before the first reading of the source; without `drives` nobody is listened to."""
+        """Start before the first reading of the source; without `drives` nobody is listened to.
+
+        attitude: corrects what the drives get.
+        """
         self._platform = platform
-        self._gate = CommandGate(platform, guard)
+        self._gate = CommandGate(platform, guard, attitude)
         self._source, self._input = source, VehicleInput(source)
         self._account = RunAccount(platform.state)
         self._operator = operator
@@ -76,7 +81,7 @@ class LiveController:
         waits = self._attended and self._homecoming.waits(self._requests)
         if self.state is State.STOPPED and waits:
             return False
-        if not (self.state in _REST_STATES and self._finishing and self._gate.standing):
+        if not (self.state in _REST_STATES and self._finishing and self._gate.settled):
             return False
         if self.state is State.STOPPED:
             return not self._homecoming.stays(self._requests)
@@ -111,7 +116,7 @@ class LiveController:
         except BaseException as error:  # noqa: BLE001
             # After any error the platform must come to a stop
             self._fail(described(error))
-        tick, command = self._guarded(slot.time, tick)
+        tick, command = self._guarded(slot, tick)
         if self._drives:
             self._drives.commanded(slot.due, command)
         return tick, command
@@ -151,12 +156,13 @@ class LiveController:
         self._check_lateness(late)
         return None if self.state in _FAULT_STATES else tick
 
-    def _guarded(self, time: float, tick: Tick | None) -> tuple[Tick, Command]:
+    def _guarded(self, slot: Slot, tick: Tick | None) -> tuple[Tick, Command]:
         """Return the tick with its command, if the guard lets it pass, or the next of its stop."""
         if self.state in _FAULT_STATES:
             tick = None
-        command = self._gate.release(time, tick)
-        tick, stopped = self._gate.sent(tick, command, self._input.vehicle_at(time))
+        command = self._gate.release(slot.time, tick)
+        tick, stopped = self._gate.sent(tick, command, self._input.vehicle_at(slot.time))
+        command = self._gate.corrected(slot.due, tick, command)
         if stopped and not self._landing:
             self._fail(self._gate.reason)
         return tick, command

@@ -10,6 +10,7 @@ from collections import deque
 from math import degrees, inf, isfinite, radians
 
 from ...rotation import Vec3
+from .attitude_correction import AttitudeCorrection
 from .command import Command
 from .drive_status import DriveFeedback, DriveStatus
 
@@ -30,14 +31,24 @@ class DriveMonitor:
     wheel_difference, stage_difference: largest between drives and command up to now, rad and m.
     """
 
-    def __init__(self, feedback: DriveFeedback, limits: bytes, timeout: float = TIMEOUT) -> None:
+    def __init__(
+        self,
+        feedback: DriveFeedback,
+        limits: bytes,
+        timeout: float = TIMEOUT,
+        attitude: AttitudeCorrection | None = None,
+        most_off: float = MOST_OFF[0],
+    ) -> None:
         """Begin with no status heard.
 
         Args:
             feedback: where statuses come from.
             limits: hash of the limits that the drives have to keep.
             timeout: s without a status while the platform moves.
+            attitude: hears what the cabin's sensors tell, where it is corrected.
+            most_off: rad of a wheel that the drives may be off the command.
         """
+        self._attitude, self._most_off = attitude, most_off
         self._feedback, self._limits, self._timeout = feedback, limits, timeout
         self._commands: deque[tuple[int, Command]] = deque(maxlen=_KEPT)
         self._margins: deque[tuple[float, float]] = deque()
@@ -100,7 +111,7 @@ class DriveMonitor:
         }
         if self.least_margin < inf:
             figures["least_margin_ms"] = 1e3 * self.least_margin
-        return figures
+        return figures | (self._attitude.figures() if self._attitude else {})
 
     def notes(self) -> list[str]:
         """Return what the user should be told since the last call."""
@@ -109,6 +120,8 @@ class DriveMonitor:
 
     def _take(self, status: DriveStatus, now: float) -> None:
         self._status, self._came = status, now
+        if self._attitude:
+            self._attitude.hear(status)
         self.heard += 1
         self.least_margin = min(self.least_margin, status.margin)
         self._margins.append((now, status.margin))
@@ -131,10 +144,10 @@ class DriveMonitor:
         wheels, stage = _largest(angle, status.wheel_angle), _largest(place, status.p_WS_W)
         self.wheel_difference = max(self.wheel_difference, wheels)
         self.stage_difference = max(self.stage_difference, stage)
-        if not (wheels <= MOST_OFF[0] and stage <= MOST_OFF[1]):
+        if not (wheels <= self._most_off and stage <= MOST_OFF[1]):
             self._off = (
                 f"the drives are {degrees(wheels):.2f} deg of a wheel and {1e3 * stage:.2f} mm off"
-                " the command, allowed: 0.1 deg and 1 mm"
+                f" the command, allowed: {degrees(self._most_off):g} deg and 1 mm"
             )
 
     def _disagreement(self, now: float) -> tuple[str, str]:
@@ -160,7 +173,10 @@ class DriveMonitor:
             )
         if status.state == "latched":
             return "latched", f"the drives have latched: {status.reason}; reset them"
-        return ("off", self._off) if self._off else ("", "")
+        if self._off:
+            return "off", self._off
+        fault = self._attitude.fault if self._attitude else ""
+        return ("sensors", fault) if fault else ("", "")
 
     def _unready(self) -> tuple[str, str]:
         """Return kind and description of what only keeps the platform from setting out."""
@@ -174,6 +190,8 @@ class DriveMonitor:
             )
         if status.state == "stopping":
             return "stopping", f"the drives stop by themselves: {status.reason}; reset them"
+        if self._attitude and (trouble := self._attitude.trouble):
+            return "sensors", trouble
         margin = min((margin for _, margin in self._margins), default=inf)
         if margin < LEAST_MARGIN:
             return "margin", (

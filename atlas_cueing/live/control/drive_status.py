@@ -6,9 +6,24 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from ...rotation import Vec3
+from ...rotation import Quat, Vec3
 
 DRIVE_STATES = ("waiting", "following", "stopping", "latched")
+
+
+@dataclass(frozen=True, slots=True)
+class CabinSensors:
+    """What tells the cabin's orientation, whatever the wheels do.
+
+    turned: what the gyro has integrated, from the first status to the time of this one; it turns
+        vectors of S now into those of S then.
+    seen: when the newest fix was taken, ns of the loop's clock.
+    fix_WS: orientation that was seen then; None without a fix up to now.
+    """
+
+    turned: Quat
+    seen: int = 0
+    fix_WS: Quat | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +43,7 @@ class DriveStatus:
     wheel_angle: of each wheel, rad.
     p_WS_W: position of the stage, m.
     good, refused: packets taken and not taken up to now.
+    sensors: of the cabin, where there are any.
     """
 
     number: int
@@ -42,6 +58,7 @@ class DriveStatus:
     p_WS_W: Vec3
     good: int
     refused: int
+    sensors: CabinSensors | None = None
 
 
 class DriveFeedback(Protocol):

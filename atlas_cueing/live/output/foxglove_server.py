@@ -21,7 +21,7 @@ from ...recording.schemas import STATUS as STATUS_TOPIC
 from ...recording.schemas import TF, message_class, schema_of
 from ...recording.wire import live_log_times
 from ...rotation import Vec3
-from ...signals import LIVE_TOPICS, StateChange
+from ...signals import LIVE_ROW, LIVE_TOPICS, StateChange
 from ...telemetry import Ring, RingReader
 from ...telemetry.child_process import ChildProcess, Left
 from ...telemetry.messages import END, STATUS, TICK, status
@@ -124,7 +124,7 @@ class Feed:
         return messages + [self._status(state) for state in states]
 
     def _ticks(self, tick: bytes) -> list[tuple[str, int, bytes]]:
-        rows = np.frombuffer(tick)[None]
+        rows = np.frombuffer(tick)[None, :LIVE_ROW]
         times = live_log_times(rows[:, ELAPSED], self._started)
         self._latest = int(times[0])
         chunk = self._encoder.encode(with_felt(rows, self._head_S), times, ())

@@ -1,10 +1,11 @@
 """The drives' answer to the loop: a status 50 times a second, and at each change."""
 
 from dataclasses import dataclass
+from typing import Protocol
 
 from ...errors import SetPointError
-from ...rotation import ZERO
-from ..control.drive_status import DriveStatus
+from ...rotation import ZERO, Vec3
+from ..control.drive_status import CabinSensors, DriveStatus
 from . import hello, status
 from .receiver import SetPointReceiver
 from .sealing import Address
@@ -12,6 +13,16 @@ from .sealing import Address
 PERIOD_NS = 20_000_000  # from one status to the next
 HEARD_NS = 2_500_000_000  # that a hello is answered for
 _MOST_LOOPS = 4  # that are answered at a time: the one followed, and others that wait
+
+
+class MeasuredPlatform(Protocol):
+    """Where a platform is at present, as its encoders and sensors tell."""
+
+    def wheel_angle(self) -> Vec3:
+        """Return the angle of each wheel, rad, as the set points count them."""
+
+    def sensors(self) -> CabinSensors:
+        """Return what the sensors of the cabin tell."""
 
 
 @dataclass(slots=True)
@@ -26,15 +37,24 @@ class _Loop:
 class StatusSender:
     """Makes the status packets of a receiver, for all loops that have asked."""
 
-    def __init__(self, receiver: SetPointReceiver, limits: bytes, key: bytes = b"") -> None:
+    def __init__(
+        self,
+        receiver: SetPointReceiver,
+        limits: bytes,
+        key: bytes = b"",
+        platform: MeasuredPlatform | None = None,
+    ) -> None:
         """Begin with no loop that has asked.
 
         Args:
             receiver: whose status is told.
             limits: hash of the limits that it keeps (`hello.limits_hash`).
             key: shared with the loop; empty for none.
+            platform: what is measured; without, the drives are where they were told to be, and the
+                cabin has no sensors.
         """
         self._receiver, self._limits, self._key = receiver, limits, key
+        self._platform = platform
         self._loops: dict[Address, _Loop] = {}
         self._number = 0
         self._told = ("", "")
@@ -74,7 +94,9 @@ class StatusSender:
         self._number += 1
         receiver = self._receiver
         report, newest = receiver.report(now), receiver.newest
-        angle = report.command.wheel_angle if report.command else ZERO
+        angle, platform = report.command.wheel_angle if report.command else ZERO, self._platform
+        if report.command and platform:
+            angle = platform.wheel_angle()
         place = report.command.p_WS_W if report.command else receiver.place
         followed, sequence = (newest.session, newest.sequence) if newest else (0, 0)
         return DriveStatus(
@@ -90,6 +112,7 @@ class StatusSender:
             p_WS_W=place,
             good=report.good,
             refused=report.refused,
+            sensors=platform.sensors() if platform else None,
         )
 
     def _forget(self, now: int) -> None:
