@@ -17,7 +17,7 @@ Told = Callable[["RunResult"], "RunResult"]
 
 
 @contextmanager
-def plant(link: "DriveLink", scenario: "Scenario") -> Iterator[tuple["DriveLink", Told]]:
+def simulated(link: "DriveLink", scenario: "Scenario") -> Iterator[tuple["DriveLink", Told]]:
     """Start a simulated platform at home, if it was asked for.
 
     Yield the link to the drives, and what adds the plant's own figures and topic to a result.

@@ -11,7 +11,7 @@ import typer
 from .live_extras import DriveLink as DriveLink
 from .live_extras import Pages as Pages
 from .live_extras import drives, followers, standing
-from .live_plant import plant
+from .live_plant import simulated
 from .text import say
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ def _flown(
 
     with ExitStack() as stack:
         pose, file = stack.enter_context(standing(link, scenario))
-        link, with_plant = stack.enter_context(plant(link, scenario))
+        link, with_plant = stack.enter_context(simulated(link, scenario))
         senders, feedback = stack.enter_context(drives(link, scenario))
         session = LiveSession(scenario, log, replace(options, pose=pose, pose_file=file))
         lines = stack.enter_context(followers(session, scenario, pages, tell=tell))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from atlas_cueing.live.control.command import Command
 from atlas_cueing.live.control.controller import LiveController
-from atlas_cueing.live.control.drive_monitor import DriveMonitor
+from atlas_cueing.live.control.drive_monitor import MOST_OFF, TIMEOUT, DriveMonitor
 from atlas_cueing.live.control.drive_status import DriveFeedback
 from atlas_cueing.live.control.guard import Guard
 from atlas_cueing.live.control.operator_inputs import OperatorInputs
@@ -19,6 +19,7 @@ from atlas_cueing.live.control.platform_controller import PlatformController
 from atlas_cueing.live.control.pose import Pose
 from atlas_cueing.live.control.slot import Slot
 from atlas_cueing.live.control.state_machine import State
+from atlas_cueing.live.held_attitude import held_attitude
 from atlas_cueing.live.loop import LEAD, Drives, Loop
 from atlas_cueing.live.output.hello import limits_hash
 from atlas_cueing.pipeline import Pipeline
@@ -73,6 +74,8 @@ class Rig:
         feedback: DriveFeedback | None = None,
         carries: bool = False,
         pose: Pose | None = None,
+        corrected: str = "none",
+        most_off: float = MOST_OFF[0],
     ) -> None:
         self.dt, self.scenario = dt, scenario(platform, *settings)
         limits = self.scenario.platform
@@ -100,9 +103,14 @@ class Rig:
             *(self.wanted.edges, lambda: self.wanted.signals, duration, attended), carries=carries
         )
         limits_told = limits_hash(self.wheel_limits, self.stage_limits)
-        self.monitor = DriveMonitor(feedback, limits_told) if feedback else None
+        self.attitude = held_attitude(limits, corrected, dt, pose or Pose())
+        self.monitor = (
+            DriveMonitor(feedback, limits_told, TIMEOUT, self.attitude, most_off)
+            if feedback
+            else None
+        )
         self.controller = LiveController(
-            self.platform, self.guard, self.source, operator, self.monitor
+            self.platform, self.guard, self.source, operator, self.monitor, self.attitude
         )
         outputs, sinks = [self.tape], [self.tape, *drives]
         self.loop = Loop(dt, self.clock, self.controller, outputs, sinks, lead=lead)

@@ -46,7 +46,6 @@ from .certified_axis import AxisLimits
 from .command import Command, axes_of, command_from
 from .corrected_wheel import CorrectedWheel
 from .drive_status import DriveStatus
-from .guard import breach_of
 from .pose import Pose
 
 _KEPT: Final = 1024  # ticks: a second at 1 kHz
@@ -93,17 +92,16 @@ class AttitudeCorrection:
         self._settings: Final[CorrectionSettings] = settings
         self._J: Final[Mat3] = matrices[0]
         self._J_inverse: Final[Mat3] = matrices[1]
-        self._dt: Final[float] = dt
-        self._axes: Final[list[AxisLimits]] = list(axes[:3])
         self._wheels: Final[list[CorrectedWheel]] = [
             CorrectedWheel(limits, dt, angle)
-            for limits, angle in zip(self._axes, pose.wheel_angle, strict=True)
+            for limits, angle in zip(axes[:3], pose.wheel_angle, strict=True)
         ]
         self._schedule: list[Vec3] = [(angle, 0.0, 0.0) for angle in pose.wheel_angle]
         self._estimate: Final[AttitudeEstimate] = AttitudeEstimate(settings.estimate, pose.q_WS)
         self._sent: deque[_Sent] = deque(maxlen=_KEPT)
         self._seen_error: Vec3 = ZERO
         self._seen_correction: Vec3 = ZERO
+        self._stands = True  # the schedule, with the last command
         self._breach = ""  # of a limit by the sum
         self._origin = 0.0  # s, time of the run when the clock shows 0
         self.correction: Vec3 = ZERO
@@ -162,9 +160,9 @@ class AttitudeCorrection:
             stopping: the schedule flies the certified stop.
         """
         axes = axes_of(command)
-        schedule = axes[:3]
-        stands = not any(v or a for _, v, a in (*schedule, *self._schedule))
-        if stopping or stands or self._breach:
+        schedule, stood = axes[:3], self._stands
+        self._stands = not any(v or a for _, v, a in axes)
+        if stopping or (stood and self._stands) or self._breach:
             for wheel in self._wheels:
                 wheel.stop()
         else:
@@ -183,24 +181,12 @@ class AttitudeCorrection:
         self._breach = ""
 
     def _follow(self, schedule: Sequence[Vec3]) -> None:
-        """Go on along the schedule; when the sum is not fit to follow what it was, stop it.
-
-        That would be an error in here.
-        """
-        before, wanted = [wheel.state for wheel in self._wheels], self._wanted()
+        """Go on along the schedule; one wheel that has to stop is a reason for all."""
+        wanted = self._wanted()
         for i in range(3):
-            self._wheels[i].follow(self._schedule[i], schedule[i], wanted[i])
-        checks = []
-        for limits, (p0, v0, a0), wheel in zip(self._axes, before, self._wheels, strict=True):
-            p, v, a = wheel.state
-            checks.append((limits.name, limits.checks(self._dt, v0, a0, v, a)))
-            checks.append((limits.name, limits.place_checks(self._dt, p0, v0, a0, p, v, a)))
-        if not (breach := breach_of(checks)):
-            return
-        self._breach = f"schedule and correction together: {breach}"
-        for wheel, state in zip(self._wheels, before, strict=True):
-            wheel.state = state
-            wheel.stop()
+            breach = self._wheels[i].follow(self._schedule[i], schedule[i], wanted[i])
+            if breach and not self._breach:
+                self._breach = f"schedule and correction together: {breach}"
 
     def _wanted(self) -> Vec3:
         """Return the speeds of the correction, rad/s."""

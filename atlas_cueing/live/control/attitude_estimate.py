@@ -25,7 +25,7 @@ _EARLIER: Final = 0.02  # s, before the first status: the observer begins there,
 
 @dataclass(frozen=True, slots=True)
 class EstimateSettings:
-    """Of the observer.
+    """How the sensors are believed.
 
     uses_fix: fixes are believed, not the gyro alone.
     fix_gain, fix_bias_gain: shares of a fix, 0 to 1. fix_rate: expected, Hz.

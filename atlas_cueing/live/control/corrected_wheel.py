@@ -1,19 +1,18 @@
 """One wheel of a platform whose attitude is corrected: its schedule and what is added to it.
 
-The SUM is what moves, so the sum is what is made here, tick by tick with a constant jerk:
+What moves is the SUM, so the sum has to keep the wheel's limits. Its acceleration is chosen first:
 
-    a' = a_s' + the correction's own acceleration, as far as the sum allows
-    v' = v + h (a + a') / 2,   theta' = theta + h v + h^2 (2 a + a') / 6
-
-and the correction is sum less schedule. a' moves by J h a tick, stays within A, and is one from
-which running down at the jerk J ends inside the speed V:
-
+    a' = a_s' + a_c',   |a' - a| <= J h,  |a'| <= A,
     v + h (a + a') / 2 + a'^2 / (2 J) <= V - J h^2 / 8
 
-(the last term is what running down in whole ticks may take more). So the sum keeps the wheel's
-limits whatever the schedule does, and passes the inequalities of `guard`.
+with a_c' the correction's own, as far as the sum allows: running down at the jerk J ends inside the
+speed V (the last term is what running down in whole ticks may take more). Then the correction moves
+with a constant jerk beside the schedule, if the inequalities of `guard` hold for the sum. Where
+they do not, since the schedule's own jerk changes within the tick, the sum itself moves with one:
 
-A sum that has nothing to follow flies the certified stop from where it is.
+    v' = v + h (a + a') / 2,   theta' = theta + h v + h^2 (2 a + a') / 6
+
+which always passes them. A sum that has nothing to follow flies the certified stop.
 """
 
 # mypyc: runs every tick
@@ -23,6 +22,7 @@ from typing import Final
 
 from ...rotation import Vec3
 from .certified_axis import AxisLimits, CertifiedStop
+from .guard import breach_of
 
 _SHARE: Final = 0.25  # assumed: of acceleration and jerk that the correction uses for itself
 _RATE: Final = 10.0  # assumed: 1/s, how fast it takes up a new speed
@@ -48,24 +48,33 @@ class CorrectedWheel:
         """Whether the last tick was exactly at rest."""
         return not (self.state[1] or self.state[2])
 
-    def follow(self, before: Vec3, after: Vec3, wanted: float) -> None:
+    def follow(self, before: Vec3, after: Vec3, wanted: float) -> str:
         """Go on for a tick along a schedule, with a correction towards the speed `wanted` (rad/s).
 
         before, after: angle, speed and acceleration of the schedule at both ends of the tick.
+
+        Return what of the sum is not fit to follow the tick before, and stop; empty otherwise, as
+        it should be whatever the schedule does.
         """
         self._stop = None
         h, (p, v, a) = self._dt, self.state
-        jerk, most = self._limits.jerk, self._limits.acceleration
-        calm, change = _SHARE * most, _SHARE * jerk * h
-        aim = max(-calm, min(calm, _RATE * (wanted - (v - before[1]))))
-        own = a - before[2]
-        aim = max(own - change, min(own + change, aim))
-        lowest, highest = max(-most, a - jerk * h), min(most, a + jerk * h)
-        highest = max(lowest, min(highest, self._allowed(v, a)))
-        lowest = min(highest, max(lowest, -self._allowed(-v, -a)))
-        total = max(lowest, min(highest, after[2] + aim))
-        place = p + h * v + h * h * (2.0 * a + total) / 6.0
-        self.state = (place, v + 0.5 * h * (a + total), total)
+        new = self._acceleration(before, after, wanted)
+        own, own_after = a - before[2], new - after[2]
+        beside = (
+            after[0] + p - before[0] + _gain(h, v - before[1], own, own_after),
+            after[1] + v - before[1] + 0.5 * h * (own + own_after),
+            new,
+        )
+        if not self._breach(beside):
+            self.state = beside
+            return ""
+        alone = (p + _gain(h, v, a, new), v + 0.5 * h * (a + new), new)
+        breach = self._breach(alone)
+        if breach:
+            self.stop()
+        else:
+            self.state = alone
+        return breach
 
     def stop(self) -> None:
         """Go on for a tick on the way to rest that was certified when it began."""
@@ -75,6 +84,28 @@ class CorrectedWheel:
         self._ticks += 1
         self.state = self._stop.at(self._ticks * self._dt)
 
+    def _acceleration(self, before: Vec3, after: Vec3, wanted: float) -> float:
+        """The sum's acceleration at the end of the tick."""
+        h, (_, v, a) = self._dt, self.state
+        jerk, most = self._limits.jerk, self._limits.acceleration
+        calm, change = _SHARE * most, _SHARE * jerk * h
+        aim = max(-calm, min(calm, _RATE * (wanted - (v - before[1]))))
+        own = a - before[2]
+        aim = max(own - change, min(own + change, aim))
+        lowest, highest = max(-most, a - jerk * h), min(most, a + jerk * h)
+        highest = max(lowest, min(highest, self._allowed(v, a)))
+        lowest = min(highest, max(lowest, -self._allowed(-v, -a)))
+        return max(lowest, min(highest, after[2] + aim))
+
+    def _breach(self, state: Vec3) -> str:
+        """What of a state is not fit to be the next; empty when it is."""
+        limits, h, (p0, v0, a0), (p, v, a) = self._limits, self._dt, self.state, state
+        checks = (
+            (limits.name, limits.checks(h, v0, a0, v, a)),
+            (limits.name, limits.place_checks(h, p0, v0, a0, p, v, a)),
+        )
+        return breach_of(checks)
+
     def _allowed(self, speed: float, now: float) -> float:
         """The largest acceleration at the end of the tick from which the speed limit is kept."""
         h, jerk = self._dt, self._limits.jerk
@@ -83,3 +114,8 @@ class CorrectedWheel:
             return 2.0 * room / h
         half = 0.5 * jerk * h
         return sqrt(half * half + 2.0 * jerk * room) - half
+
+
+def _gain(h: float, v: float, a: float, after: float) -> float:
+    """The way of h (s) at speed v and an acceleration that goes evenly from a to `after`."""
+    return h * v + h * h * (2.0 * a + after) / 6.0

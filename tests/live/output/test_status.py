@@ -13,16 +13,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from atlas_cueing.errors import SetPointError
-from atlas_cueing.live.control.drive_status import DRIVE_STATES, DriveStatus
+from atlas_cueing.live.control.drive_status import DRIVE_STATES, CabinSensors, DriveStatus
 from atlas_cueing.live.output import hello, status
 from atlas_cueing.live.output.hello import Hello, limits_hash
 
 from ..control.guard_states import STAGE, WHEELS
 
 KEY = bytes(range(16))
+SENSED = CabinSensors((0.5, -0.5, 0.5, 0.5), 12_000_000_014, (0.6, 0.0, -0.8, 0.0))
 ONE = DriveStatus(
     *(5, "stopping", "no successor", 13_000_000_014, 7, 12, 0.004, bytes(range(16))),
-    *((1.0, -2.0, 3e9), (0.1, 0.2, -0.3), 99, 4),
+    *((1.0, -2.0, 3e9), (0.1, 0.2, -0.3), 99, 4, SENSED),
 )
 ASKED = Hello(7, 3, 13_000_000_014, bytes(range(16)))
 PACKETS = {
@@ -49,17 +50,18 @@ def read(module: ModuleType, packet: bytes) -> list[tuple[object, ...]]:
 
 
 def test_a_status_lies_where_the_table_says() -> None:
-    magic, version, kind, state, _, session, number, time, followed, newest, *rest = read(
+    magic, version, kind, state, sensors, session, number, time, followed, newest, *rest = read(
         *PACKETS["status"]
     )
-    assert (magic, version, kind, state) == ((b"ATSS",), (1,), (0,), (2,))
+    assert (magic, version, kind, state, sensors) == ((b"ATSS",), (2,), (0,), (2,), (2,))
     assert (session, number, time) == ((8,), (5,), (13_000_000_014,))
     assert (followed, newest) == ((7,), (12,))
-    margin, limits, angle, place, good, refused, reason, check = rest
+    margin, limits, angle, place, good, refused, turned, seen, fix, reason, check = rest
+    assert (turned, seen, fix) == (SENSED.turned, (SENSED.seen,), SENSED.fix_WS)
     assert (margin, angle, place) == ((0.004,), ONE.wheel_angle, ONE.p_WS_W)
     assert bytes(limits) == ONE.limits  # type: ignore[arg-type]
     assert (good, refused, reason[0].rstrip(b"\0")) == ((99,), (4,), b"no successor")  # type: ignore[attr-defined]
-    assert bytes(check) == struct.pack("<I12x", zlib.crc32(PACKETS["status"][1][:224]))  # type: ignore[arg-type]
+    assert bytes(check) == struct.pack("<I12x", zlib.crc32(PACKETS["status"][1][:296]))  # type: ignore[arg-type]
 
 
 def test_a_hello_lies_where_the_table_says() -> None:
@@ -106,6 +108,23 @@ def test_any_changed_byte_and_any_rubbish_is_refused(name: str, data: st.DataObj
             module.decode(wrong)
     with pytest.raises(SetPointError, match="as the receiver has a key"):
         module.decode(packet, KEY)
+
+
+@pytest.mark.parametrize("sensors", [None, CabinSensors(SENSED.turned), SENSED])
+def test_sensors_come_as_they_were_sent(sensors: CabinSensors | None) -> None:
+    assert status.decode(status.encode(8, replace(ONE, sensors=sensors)))[1].sensors == sensors
+
+
+def test_orientations_that_cannot_be() -> None:
+    for wrong in ((0.0, 0.0, 0.0, 0.0), (1.0, 1.0, 0.0, 0.0), (inf, 0.0, 0.0, 0.0)):
+        for sensors in (replace(SENSED, turned=wrong), replace(SENSED, fix_WS=wrong)):
+            with pytest.raises(SetPointError, match="quaternion of norm"):
+                status.decode(status.encode(8, replace(ONE, sensors=sensors)))
+    content = bytearray(PACKETS["status"][1][:296])
+    content[7] = 3
+    packet = bytes(content) + struct.pack("<I12x", zlib.crc32(bytes(content)))
+    with pytest.raises(SetPointError, match="status 5 has sensors 3"):
+        status.decode(packet)
 
 
 def test_numbers_and_corrections_that_cannot_be() -> None:
