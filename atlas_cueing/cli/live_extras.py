@@ -89,7 +89,10 @@ def _open_foxglove(
 ) -> str:
     from ..live.output import FoxgloveProcess
 
-    server = FoxgloveProcess(session.ring, port, scenario.platform.head_S, session.started_ns)
+    head_S = scenario.platform.head_S
+    server = FoxgloveProcess(
+        *(session.ring, port, head_S, session.started_ns), attitude=session.corrects
+    )
     stack.callback(server.close)
     session.helpers.add(
         lambda: server.answers, "the server for Foxglove has died, or answers no more"

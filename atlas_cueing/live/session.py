@@ -72,6 +72,11 @@ class LiveSession:
         # the same moment by the loop's clock and by the system's
         self._origin, self.started_ns = self._clock.now(), time.time_ns()
 
+    @property
+    def corrects(self) -> bool:
+        """Whether the attitude is corrected."""
+        return self._attitude is not None
+
     def run(
         self,
         drives: Sequence[Drives] = (),

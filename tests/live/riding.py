@@ -18,9 +18,14 @@ from atlas_cueing.telemetry import LiveWriter
 STARTED_NS = 1_700_000_000_123_456_789
 
 
-def live_recorder(path: Path) -> McapRecorder:
+def live_recorder(path: Path, *, attitude: bool = False) -> McapRecorder:
     return McapRecorder(
-        path, head_S=HEAD, metadata=METADATA, attachments=ATTACHMENTS, started_ns=STARTED_NS
+        path,
+        head_S=HEAD,
+        metadata=METADATA,
+        attachments=ATTACHMENTS,
+        started_ns=STARTED_NS,
+        attitude=attitude,
     )
 
 

@@ -16,12 +16,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...errors import MissingExtraError
-from ...recording.chunk import ELAPSED, ChunkEncoder, with_felt
+from ...recording.chunk import ELAPSED, ChunkEncoder, with_attitude, with_felt
 from ...recording.schemas import STATUS as STATUS_TOPIC
 from ...recording.schemas import TF, message_class, schema_of
 from ...recording.wire import live_log_times
 from ...rotation import Vec3
-from ...signals import LIVE_ROW, LIVE_TOPICS, StateChange
+from ...signals import CORRECTION, ESTIMATE, LIVE_ROW, LIVE_TOPICS, StateChange
 from ...telemetry import Ring, RingReader
 from ...telemetry.child_process import ChildProcess, Left
 from ...telemetry.messages import END, STATUS, TICK, status
@@ -42,7 +42,9 @@ _NAME = "atlas_cueing"
 class FoxgloveProcess:
     """Serves a live run to Foxglove on this machine, until END is in the ring or the loop ends."""
 
-    def __init__(self, ring: Ring, port: int, head_S: Vec3, started_ns: int) -> None:
+    def __init__(
+        self, ring: Ring, port: int, head_S: Vec3, started_ns: int, *, attitude: bool = False
+    ) -> None:
         """Fork the server.
 
         Args:
@@ -50,6 +52,7 @@ class FoxgloveProcess:
             port: of 127.0.0.1; 0 takes a free one.
             head_S: position of the rider's head for /felt, m, frame S.
             started_ns: start of the run, ns since 1970, as McapRecorder has it.
+            attitude: that of the run is corrected.
 
         Raises MissingExtraError when foxglove-sdk is not installed, InputError when the port is not
         available.
@@ -58,7 +61,7 @@ class FoxgloveProcess:
             raise MissingExtraError("--foxglove", "foxglove-sdk", "foxglove")
         with listen("127.0.0.1", port) as listener:
             self.port: int = listener.getsockname()[1]
-            feed = Feed(ring, head_S, started_ns)
+            feed = Feed(ring, head_S, started_ns, attitude)
             self._process = ChildProcess(lambda left: asyncio.run(_serve(feed, listener, left)))
 
     @property
@@ -92,13 +95,15 @@ class FoxgloveProcess:
 class Feed:
     """Encodes messages for viewers from a ring: the newest tick and all changes of state."""
 
-    def __init__(self, ring: Ring, head_S: Vec3, started_ns: int) -> None:
+    def __init__(self, ring: Ring, head_S: Vec3, started_ns: int, attitude: bool = False) -> None:
         """Read `ring` from its next message on; see FoxgloveProcess for the arguments."""
-        self.topics = (*(topic.name for topic in LIVE_TOPICS), TF, STATUS_TOPIC)
+        topics = (*LIVE_TOPICS, CORRECTION, ESTIMATE) if attitude else LIVE_TOPICS
+        self.topics = (*(topic.name for topic in topics), TF, STATUS_TOPIC)
         self.over = False
         self._reader = RingReader(ring)
         self._head_S = head_S
-        self._encoder = ChunkEncoder({name: k for k, name in enumerate(self.topics)}, LIVE_TOPICS)
+        self._encoder = ChunkEncoder({name: k for k, name in enumerate(self.topics)}, topics)
+        self._attitude = attitude
         self._status_class = message_class(*schema_of(STATUS_TOPIC))
         self._started = self._latest = started_ns
         self._state: StateChange | None = None
@@ -124,10 +129,13 @@ class Feed:
         return messages + [self._status(state) for state in states]
 
     def _ticks(self, tick: bytes) -> list[tuple[str, int, bytes]]:
-        rows = np.frombuffer(tick)[None, :LIVE_ROW]
+        row = np.frombuffer(tick)[None]
+        rows, own = row[:, :LIVE_ROW], row[:, LIVE_ROW:]
         times = live_log_times(rows[:, ELAPSED], self._started)
         self._latest = int(times[0])
-        chunk = self._encoder.encode(with_felt(rows, self._head_S), times, ())
+        ticks = with_felt(rows, self._head_S)
+        ticks = with_attitude(ticks, own) if self._attitude else ticks
+        chunk = self._encoder.encode(ticks, times, ())
         return [(self.topics[k], at, content) for k, at, content in chunk.messages()]
 
     def _status(self, new: StateChange) -> tuple[str, int, bytes]:

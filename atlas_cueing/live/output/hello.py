@@ -22,8 +22,8 @@ acceleration and jerk of the wheels, 1 to 3 each (rad, s), then travel, speed, a
 of the stage, x, y, z each (m, s), exactly as in the platform file. Equal hashes say that both sides
 derive the same stop from the same set point.
 
-The correction is room for what a later version may add to all set points of its session beside
-their schedule, such as slip that was measured. A receiver of version 1 refuses any but zero.
+The correction is room for a constant that a later version may add to all set points of its session,
+such as an encoder's offset. A receiver of version 1 refuses any but zero.
 
 A receiver that hears a good one sends its status (`status`) to where it came from for the next
 2.5 s, whether it follows that sender or not.

@@ -62,7 +62,11 @@ Clocks: due times are the sender's. On another machine they have to be translate
 kept within a millisecond (as by PTP). A receiver that is 3 ms off only shifts the motion; one that
 is ahead by more than the lead finds every set point late, and stops; its margins tell the loop. A
 receiver may add any constant to all due times of a session, and count angles from any place where
-the platform stood. Room for a correction of the motion beside the schedule is in `hello`.
+the platform stood.
+
+Where the attitude is corrected by what the cabin's sensors tell (`attitude_correction`), angle,
+speed and acceleration of the wheels are those of schedule and correction together. A receiver does
+the same as ever.
 """
 
 from dataclasses import dataclass

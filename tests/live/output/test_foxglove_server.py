@@ -20,7 +20,7 @@ from websockets.sync.client import ClientConnection, connect
 from atlas_cueing.errors import InputError
 from atlas_cueing.live.output.foxglove_server import RATE_HZ, REPEAT_S, Feed, FoxgloveProcess
 from atlas_cueing.recording.schemas import message_class, schema_of
-from atlas_cueing.signals import LIVE_TOPICS, live_row
+from atlas_cueing.signals import ATTITUDE_ROW, LIVE_TOPICS, live_row
 from atlas_cueing.telemetry import LiveWriter, Ring, live_ring
 
 from ..riding import STARTED_NS, child, live_recorder, live_tick, write_ticks
@@ -96,6 +96,13 @@ class Viewer:
         raise AssertionError("nothing is shown")
 
 
+class Corrected:
+    """An attitude that is corrected."""
+
+    def row(self) -> tuple[float, ...]:
+        return tuple(float(k) for k in range(ATTITUDE_ROW))
+
+
 class TestTheFeed:
     def test_it_shows_the_newest_tick_and_every_state(self, ring: Ring) -> None:
         feed, writer = Feed(ring, HEAD, STARTED_NS), LiveWriter(ring)
@@ -108,12 +115,16 @@ class TestTheFeed:
         assert {at for _, at, _ in shown} == {STARTED_NS + 4_250_000_000}
         assert feed.new(1.5) == []
 
-    def test_the_messages_are_those_of_the_log(self, ring: Ring, tmp_path: Path) -> None:
+    @pytest.mark.parametrize("corrected", [False, True])
+    def test_the_messages_are_those_of_the_log(
+        self, ring: Ring, tmp_path: Path, *, corrected: bool
+    ) -> None:
         """Byte for byte, read from a log by mcap's own reader."""
         from mcap.reader import make_reader
 
-        feed, writer = Feed(ring, HEAD, STARTED_NS), LiveWriter(ring)
-        recorder = live_recorder(tmp_path / "run.mcap")
+        feed = Feed(ring, HEAD, STARTED_NS, corrected)
+        writer = LiveWriter(ring, Corrected() if corrected else None)
+        recorder = live_recorder(tmp_path / "run.mcap", attitude=corrected)
         written = {}
         for k in range(5):
             tick, timing = live_tick(0.1 * k)
@@ -129,7 +140,7 @@ class TestTheFeed:
                 (channel.topic, message.log_time): message.data for _, channel, message in messages
             }
         assert written == logged
-        assert len(written) == 5 * len(TOPICS)
+        assert len(written) == 5 * (len(TOPICS) + 2 * corrected)
 
     def test_the_state_is_said_again_for_those_who_came_later(self, ring: Ring) -> None:
         feed, writer = Feed(ring, HEAD, STARTED_NS), LiveWriter(ring)
