@@ -87,6 +87,7 @@ class Session:
     buttons: OperatorButtons = field(default_factory=OperatorButtons)
     helpers: HelperWatch = field(default_factory=HelperWatch)
     started_ns: int = 0
+    corrects: bool = False
 
     def lost(self, found: list[tuple[str, bool]]) -> bool:
         found += self.helpers.losses()
