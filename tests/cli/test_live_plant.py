@@ -1,41 +1,62 @@
 """`live --plant --feedback` as its users see it: real time, real processes, one command."""
 
 import json
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from atlas_cueing import read_log
+from atlas_cueing.review import judge, open_run
 from atlas_cueing.rotations import geodesic
 
 from .conftest import Command
+from .test_plant import altered
 
 RIDE = ("live", "s.toml", "--rate", "100", "--lead", "80", "--set", "duration_s=3")
 HALO = ("--set", "platform.preset=atlas-2.9m-halo", "--set", "cueing.method=blend")
+NEW = ("-o", "new.mcap", "--force", "--json")
+
+
+def ride(command: Command) -> tuple[int, dict[str, Any]]:
+    """Exit status and result of a ride; one that a busy machine has made late is flown again."""
+    for _ in range(3):
+        ended = command(*RIDE, *HALO, "--plant", "--feedback", "fix", *NEW)
+        told = json.loads(ended.out)
+        if not held_up(told):
+            break
+    return ended.status, told
+
+
+def held_up(told: dict[str, Any]) -> bool:
+    """Whether the machine had so much else to do that the ride was late."""
+    return "too late for" in told["reason"] or "were silent for" in told["reason"]
 
 
 def test_a_ride_on_a_simulated_platform(command: Command) -> None:
-    ended = command(*RIDE, *HALO, "--plant", "--feedback", "fix", "-o", "new.mcap", "--json")
-    told = json.loads(ended.out)
-    late = "too late for the drives" in told["reason"]  # a machine with much else to do
-    assert ended.status == 0 or late, ended.out
+    status, told = ride(command)
+    late = held_up(told)
+    assert status == late, told
     assert told["violations"] == []
-    plant, drives = told["plant"], told["drives"]
-    assert drives["fixes"] >= 30
-    assert drives["fixes_refused"] == 0
-    assert 0.0 < plant["estimate_error_max_deg"] < 0.5
     log = read_log("new.mcap")
     assert {"/plant", "/correction", "/estimate", "/timing"} <= {*log.tables}
     count = len(log.column("/motion", "time_s"))
     for topic in ("/plant", "/correction", "/estimate"):
         assert len(log.column(topic, "time_s")) == count, topic
+    plant, drives = told["plant"], told["drives"]
     error = geodesic(log.vector("/plant", "q_ws"), log.vector("/motion", "q_ws"))
     assert np.degrees(error.max()) == pytest.approx(plant["orientation_error_max_deg"])
     away = log.vector("/plant", "f") - log.vector("/felt", "f")
     assert np.sqrt(np.mean(away**2)) < 0.3  # a stop of a late ride is hard
-    review = command("review", "new.mcap", "--json")
-    assert json.loads(review.out)["findings"] == [] or late, review.out
-    assert "plant" in command("review", "new.mcap").out
+    assert "by its sensors, it was up to" in command("review", "new.mcap").out
+    run = altered(Path("new.mcap"), "/estimate", "error_rad", 0.5, count - 10)
+    assert "/estimate error_rad: error" in str(judge(run).findings[-1])
+    if not late:
+        assert drives["fixes"] >= 30
+        assert drives["fixes_refused"] == 0
+        assert 0.0 < plant["estimate_error_max_deg"] < 0.5
+        assert judge(open_run(Path("new.mcap"))).findings == []
 
 
 def test_what_does_not_go_together_is_refused(command: Command) -> None:

@@ -68,12 +68,12 @@ def corrected(command: Command, log: Path) -> Path:
     return log.with_name("new.mcap")
 
 
-def altered(log: Path, topic: str, field: str, value: float) -> RecordedRun:
-    """The log's run with another number at its tick 30."""
+def altered(log: Path, topic: str, field: str, value: float, row: int = 30) -> RecordedRun:
+    """The log's run with another number in a row."""
     run = open_run(log)
     table = run.log.tables[topic]
     values = table.values.copy()
-    values[30, table.fields.index(field)] = value
+    values[row, table.fields.index(field)] = value
     tables = {**run.log.tables, topic: replace(table, values=values)}
     return replace(run, log=replace(run.log, tables=tables))
 

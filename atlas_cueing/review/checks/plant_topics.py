@@ -1,6 +1,7 @@
-"""Check of what `plant` adds to a log: the correction beside the schedule, and the sphere's pose.
+"""Check of what a loop that holds the attitude adds to a log, and a simulated platform.
 
-Everything else in a review is of the schedule, so a note says how far the sphere was from it.
+That is the correction beside the schedule, the estimate, and the sphere's pose. Everything else in
+a review is of the schedule, so a note says how far the sphere was from it.
 """
 
 import numpy as np
@@ -10,27 +11,29 @@ from ..finding import Finding, exceeding
 from ..own_rotations import to_matrix
 from ..recorded_run import RecordedRun
 
-PLANT, CORRECTION = "/plant", "/correction"
+PLANT, CORRECTION, ESTIMATE = "/plant", "/correction", "/estimate"
 _LENGTH = 1e-6  # of a quaternion less 1
 _LIMIT = 1e-6  # of a limit, as for the schedule
 _ANGLE = 1e-6  # rad: of the error that is logged
+_BETWEEN = 1e-3  # rad: of one that is between two ticks; the chord of 2 rad/s in 20 ms is 2e-4 off
 
 
 def check_plant(run: RecordedRun) -> list[Finding]:
     """Check that schedule and correction keep the limits, and that errors are those of the pose."""
     found = [] if CORRECTION not in run.log.tables else _limits(run)
+    found += [] if ESTIMATE not in run.log.tables else _estimate(run)
     return found + ([] if PLANT not in run.log.tables else _pose(run))
 
 
 def plant_notes(run: RecordedRun) -> tuple[str, ...]:
-    """Say that figures are of the schedule, and how far the simulated sphere was from it."""
-    if PLANT not in run.log.tables or not len(error := run.log.column(PLANT, "error_rad")):
-        return ()
-    largest, end = np.degrees(np.abs(error)).max(), np.degrees(np.abs(error[-1]))
-    return (
-        f"figures are of the schedule; the simulated sphere of /plant was up to {largest:.3g} deg"
-        f" from it, and {end:.3g} deg at the end",
-    )
+    """Say that figures are of the schedule, and how far the sphere was from it."""
+    notes, whose = [], {PLANT: "the simulated sphere of /plant", ESTIMATE: "by its sensors, it"}
+    for topic, what in whose.items():
+        if topic not in run.log.tables or not len(error := run.log.column(topic, "error_rad")):
+            continue
+        largest, end = np.degrees(np.abs(error)).max(), np.degrees(np.abs(error[-1]))
+        notes.append(f"{what} was up to {largest:.3g} deg from it, and {end:.3g} deg at the end")
+    return (f"figures are of the schedule; {'; '.join(notes)}",) if notes else ()
 
 
 def _limits(run: RecordedRun) -> list[Finding]:
@@ -47,6 +50,24 @@ def _limits(run: RecordedRun) -> list[Finding]:
         both = schedule[:count] + np.column_stack(added)
         found += exceeding("limit", places, time, both, _allowed(limit), shown)
     return found
+
+
+def _estimate(run: RecordedRun) -> list[Finding]:
+    """The error of an estimate is against the schedule of the estimate's own time."""
+    flight, log = run.flight, run.log
+    q = np.column_stack([log.column(ESTIMATE, f"q_ws_{c}") for c in "wxyz"])
+    count = min(len(flight.time), len(q))
+    time, seen = flight.time[:count], log.column(ESTIMATE, "seen_s")[:count]
+    known = (seen >= flight.time[0]) & (seen <= time)
+    R = to_matrix(flight.motion_q_WS)
+    at = np.clip(np.searchsorted(flight.time, seen, side="right") - 1, 0, len(flight.time) - 2)
+    share = (seen - flight.time[at]) / (flight.time[at + 1] - flight.time[at])
+    wanted = R[at] + np.clip(share, 0.0, 1.0)[:, None, None] * (R[at + 1] - R[at])
+    apart = np.linalg.norm(to_matrix(q[:count]) - wanted, axis=(1, 2)) / np.sqrt(8.0)
+    angle = 2.0 * np.arcsin(np.minimum(apart, 1.0))
+    off = np.where(known, angle - log.column(ESTIMATE, "error_rad")[:count], 0.0)
+    places = [f"{ESTIMATE} error_rad"]
+    return exceeding("error", places, time, off, _BETWEEN, "rad", quantity="difference")
 
 
 def _pose(run: RecordedRun) -> list[Finding]:
