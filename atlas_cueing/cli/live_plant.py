@@ -17,7 +17,9 @@ Told = Callable[["RunResult"], "RunResult"]
 
 
 @contextmanager
-def simulated(link: "DriveLink", scenario: "Scenario") -> Iterator[tuple["DriveLink", Told]]:
+def simulated(
+    link: "DriveLink", scenario: "Scenario", *, priority: bool
+) -> Iterator[tuple["DriveLink", Told]]:
     """Start a simulated platform at home, if it was asked for.
 
     Yield the link to the drives, and what adds the plant's own figures and topic to a result.
@@ -32,7 +34,7 @@ def simulated(link: "DriveLink", scenario: "Scenario") -> Iterator[tuple["DriveL
     from ..live.plant_process import PlantProcess
 
     with ExitStack() as stack:
-        process = PlantProcess(scenario.platform, Pose())
+        process = PlantProcess(scenario.platform, Pose(), priority=priority)
         stack.callback(process.finish)
 
         def told(result: "RunResult") -> "RunResult":

@@ -75,7 +75,7 @@ def _flown(
 
     with ExitStack() as stack:
         pose, file = stack.enter_context(standing(link, scenario))
-        link, with_plant = stack.enter_context(simulated(link, scenario))
+        link, with_plant = stack.enter_context(simulated(link, scenario, priority=options.priority))
         senders, feedback = stack.enter_context(drives(link, scenario))
         session = LiveSession(scenario, log, replace(options, pose=pose, pose_file=file))
         lines = stack.enter_context(followers(session, scenario, pages, tell=tell))

@@ -1,5 +1,6 @@
 """A simulated platform in a process of its own, at a port of the loopback."""
 
+import os
 import select
 import socket
 import tempfile
@@ -13,7 +14,6 @@ import numpy as np
 from ..errors import InputError
 from ..rotations import Array
 from ..scenario import Platform
-from ..scenario.plant_table import PlantTable
 from ..telemetry.child_process import ChildProcess, Left
 from .control.pose import Pose
 from .output.ring_recorder import report_on_stderr
@@ -22,6 +22,7 @@ from .output.setpoint import SIZE
 from .plant_drives import PlantDrives
 
 _CYCLE_S = 0.002  # s from one look at the clock to the next
+_NICE = -15  # below the loop's own priority, and before all else
 _FINISH_S = 20.0  # s that the rows may take to a slow disk (assumed)
 
 
@@ -31,12 +32,12 @@ class PlantProcess:
     address: of the set points, HOST:PORT.
     """
 
-    def __init__(self, platform: Platform, pose: Pose, table: PlantTable | None = None) -> None:
-        """Listen, and fork.
+    def __init__(self, platform: Platform, pose: Pose, *, priority: bool = False) -> None:
+        """Listen, and fork. With `priority` it runs before others where the system lets it.
 
         Raises InputError for a platform that makes no plant, or without a free port.
         """
-        drives = PlantDrives(platform, monotonic_ns(), pose, table)
+        drives = PlantDrives(platform, monotonic_ns(), pose)
         self._folder = tempfile.TemporaryDirectory(prefix="plant_")
         self._file = Path(self._folder.name) / "rows.npy"
         packets = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
@@ -49,7 +50,9 @@ class PlantProcess:
         host, port = packets.getsockname()
         self.address = f"{host}:{port}"
         with packets:
-            self._process = ChildProcess(lambda left: _follow(drives, packets, self._file, left))
+            self._process = ChildProcess(
+                lambda left: _follow(drives, packets, self._file, left, priority=priority)
+            )
 
     def finish(self) -> Array:
         """End it; return the rows of `PlantDrives`, none if it has died, and on a second call."""
@@ -58,13 +61,14 @@ class PlantProcess:
             return np.load(self._file) if self._file.exists() else np.empty((0, 0))
 
 
-def _follow(drives: PlantDrives, packets: socket.socket, file: Path, left: Left) -> bytes:
-    """Carry the plant along in real time.
-
-    Drives of their own would be punctual; these may be held up by the machine. So what has come
-    meanwhile is taken before they catch up.
-    """
+def _follow(
+    drives: PlantDrives, packets: socket.socket, file: Path, left: Left, *, priority: bool
+) -> bytes:
+    """Carry the plant along in real time; what has come is taken before it catches up."""
     told = ""
+    if priority:
+        with suppress(OSError):
+            os.setpriority(os.PRIO_PROCESS, 0, _NICE)
     while not left():
         select.select([packets], [], [], _CYCLE_S)
         for packet, sender in _waiting(packets):
@@ -76,7 +80,7 @@ def _follow(drives: PlantDrives, packets: socket.socket, file: Path, left: Left)
         if state in ("stopping", "latched") and reason != told:
             told = reason
             report_on_stderr(f"plant: drives {state}: {reason}")
-    np.save(file, np.array(drives.rows))
+    np.save(file, drives.rows)
     return b""
 
 

@@ -50,7 +50,7 @@ def add_plant(path: Path, rows: Array) -> dict[str, float]:
 def _at(known: Array, time: Array) -> Array:
     """Return what the plant did at `time` (n,), s of the run: (n, PLANT_ROW).
 
-    Between two rows lines are drawn, 2 ms long; a quaternion is brought back to length 1.
+    Between two rows lines are drawn, 4 ms long; a quaternion is brought back to length 1.
     """
     found = np.column_stack(
         [np.interp(time, known[:, 1], known[:, 2 + k]) for k in range(PLANT_ROW)]

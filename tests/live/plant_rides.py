@@ -96,9 +96,9 @@ class PlantRide:
 
     def _errors(self) -> np.ndarray:
         """Angle between sphere and schedule at the due times, deg."""
-        rows = np.array(self.drives.rows)
-        places = np.searchsorted(rows[:, 0], [due for _, _, due, _ in self.rig.tape.sent])
-        pairs = zip(rows[places, 2:6], self.rig.tape.ticks, strict=True)
+        rows, due = self.drives.rows, [due for _, _, due, _ in self.rig.tape.sent]
+        q = np.column_stack([np.interp(due, rows[:, 0], rows[:, 2 + k]) for k in range(4)])
+        pairs = zip(q, self.rig.tape.ticks, strict=True)
         return np.degrees([geodesic(tuple(q), tick.motion.q_WS) for q, tick in pairs])
 
     @property

@@ -8,7 +8,7 @@ import pytest
 from atlas_cueing.live.control.drive_status import CabinSensors
 from atlas_cueing.live.control.state_machine import State
 
-from .plant_rides import PlantRide, turned_away
+from .plant_rides import PLATFORM, PlantRide, turned_away
 from .rig import Rig
 
 
@@ -137,3 +137,21 @@ def test_a_stop_in_any_state_is_the_drives_own(state: State) -> None:
     assert ride.refused == ""
     assert ride.drives.receiver.tripped == ""
     assert not ride.sums[-1].any()
+
+
+def test_a_ride_is_not_over_before_the_sum_stands() -> None:
+    """A correction may be longer on its way to rest than the schedule."""
+    rig = Rig(0.01, PLATFORM, corrected="fix")
+    assert rig.attitude is not None
+    gate = rig.controller._gate
+    assert gate.settled
+    rig.attitude._wheels[1].state = (0.0, 0.3, 0.0)
+    assert gate.standing
+    assert not gate.settled
+
+
+def test_it_does_not_set_out_before_it_has_a_fix() -> None:
+    ride = PlantRide("fix", sensed=lambda _, sensors: CabinSensors(sensors.turned))
+    assert not any(moving(ride))
+    assert ride.rig.monitor is not None
+    assert "no fix of the cabin" in ride.rig.monitor.trouble
