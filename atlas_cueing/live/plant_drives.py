@@ -27,9 +27,7 @@ from .output.setpoint import decode
 
 STEP_NS = 2_000_000  # from one look at the set points to the next
 _KEPT = 2  # steps from one row that is kept to the next
-_AHEAD_NS = (
-    90_000_000  # of a set point that comes; the receiver takes none further ahead than 0.1 s
-)
+_AHEAD_NS = 90_000_000  # of a set point that comes; none is taken 0.1 s ahead
 
 
 class PlantDrives:
