@@ -18,10 +18,13 @@ Examples:
 
   atlas-cueing design atlas-2.9m --flights flights -o turned --vary skew --objective condition_number
 
-  atlas-cueing design atlas-2.9m --flights flights -o layouts --choose 7      (the same again, another row of the table)
+The first one again, with another row of the table as the platform; it is not searched again:
 
-The folder gets platform.toml (the chosen layout), layouts.json, index.html, and part-*.json: what has been worked out, so
-that a design that was stopped goes on where it was. Remove them to save room.
+  atlas-cueing design atlas-2.9m --flights flights -o layouts --choose 7
+
+The folder gets platform.toml (the chosen layout), layouts.json, index.html, and part-*.json:
+what has been worked out, so that a design that was stopped goes on where it was. Remove them
+to save room. A folder with a design of other logs or options is refused.
 """  # noqa: E501 - commands to copy
 
 PlatformName: TypeAlias = Annotated[
@@ -128,6 +131,7 @@ def design_command(
     from ..design import (
         Problem,
         check_objectives,
+        design_stamp,
         has_rows,
         layout_of,
         log_files,
@@ -136,22 +140,22 @@ def design_command(
     )
     from ..design.variation import layout_asked
     from ..scenario import load_platform
-    from .design_run import DesignRun
+    from .design_run import DesignRun, check_choice
     from .text import say
 
     begun = load_platform(platform)
     start, model = layout_of(begun), begun.load_model()
-    searched, preloaded = ranges_of(
-        vary or ["elevation,skew,azimuth"], ranges or (), start, len(begun.wheel)
-    )
+    searched, preloaded = ranges_of(vary or ["elevation,skew,azimuth"], ranges or (), start, begun)
     goals = check_objectives(objectives or _usual([*searched]), rows=has_rows(begun))
     asked = [layout_asked(text, start) for text in also or ()]
     logs = log_files([*flights, *(more or ())])
+    check_choice(choose, 1 + len(asked) + searches)
     run = DesignRun(platform, begun, output, logs, preloaded=preloaded, choose=choose)
     run.check()
     ridden, names = read_flights(model, logs)
-    say(f"{len(names)} rides with {len(ridden)} ticks; searching {', '.join(searched)}")
     problem = Problem(begun, start, searched, goals, ridden)
+    run.check_same(design_stamp(problem, asked, searches, seed))
+    say(f"{len(names)} rides with {len(ridden)} ticks; searching {', '.join(searched)}")
     workers = jobs or len(os.sched_getaffinity(0))
     front = run.search(problem, asked, searches, seed, workers, cluster)
     typer.echo(run.finish(front, names, as_json=as_json))

@@ -1,5 +1,6 @@
 """A design from its folder to its files: check, search with progress, table, page and platform."""
 
+import json
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -9,6 +10,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from ..errors import AtlasError, InputError, OutputError
+from .design_table import exceeded, searched_on, table_text
 from .progress import shown_share
 from .text import one_json, say
 
@@ -53,6 +55,7 @@ class DesignRun:
         if "://" in str(folder):
             raise InputError(f"-o {folder}: is a URL, allowed: a folder of this machine")
         self._store = open_store(str(folder))
+        self._stamp = ""
 
     def check(self) -> None:
         """Refuse a folder that cannot be written, or whose files are not of an earlier design.
@@ -69,6 +72,19 @@ class DesignRun:
                     f"{path}: is not of an earlier design, and would be replaced; choose another"
                     " folder, or give it another name"
                 )
+
+    def check_same(self, stamp: str) -> None:
+        """Refuse a folder with another finished design; `stamp` is of all this one depends on.
+
+        Raises OutputError. The same design again (with another --choose, say) is let through.
+        """
+        self._stamp = stamp
+        there = [name for name in _BEGINS if self._store.has(name)]
+        if there and _stamp_in(self._store.read([LAYOUTS]).get(LAYOUTS, b"")) != stamp:
+            raise OutputError(
+                f"{self._store.where(there[0])}: is of an earlier design of other logs or options,"
+                f" and would be replaced; choose another folder, or remove its {', '.join(_BEGINS)}"
+            )
 
     def search(
         self,
@@ -112,12 +128,16 @@ class DesignRun:
     def finish(self, front: "Front", flights: "Sequence[FlightName]", *, as_json: bool) -> str:
         """Write platform, layouts and page; return what is printed.
 
-        Raises InputError for a --choose that the table does not have.
+        Raises InputError for a --choose that the table does not have; what was searched is kept.
         """
         from ..design import design_page
 
         if self._choose is not None and self._choose >= len(front.rated):
-            raise InputError(f"--choose {self._choose}: allowed: 0 to {len(front.rated) - 1}")
+            raise InputError(
+                f"--choose {self._choose}: the table has {len(front.rated)} rows, allowed: 0 to"
+                f" {len(front.rated) - 1}; what was searched is kept in {self._folder}, so that"
+                " the same command with another row takes no search"
+            )
         if self._choose is not None:
             front = replace(front, chosen=self._choose)
         built, notes = self._designed(front)
@@ -126,13 +146,14 @@ class DesignRun:
         self._store.write(PLATFORM, built.encode())
         self._store.write(LAYOUTS, table.encode())
         self._store.write(PAGE_NAME, page.encode(errors="replace"))
-        return table if as_json else _table(front, notes, self._folder)
+        return table if as_json else table_text(front, notes, self._folder)
 
     def _json(
         self, front: "Front", flights: "Sequence[FlightName]", notes: Sequence[str]
     ) -> dict[str, object]:
         return {
             "designed_from": self._platform.name,
+            "stamp": self._stamp,
             "platform": str(self._folder / PLATFORM),
             "objectives": list(front.objectives),
             "chosen": front.chosen,
@@ -154,6 +175,16 @@ class DesignRun:
             "layouts": [row.to_json() for row in front.rated],
         }
 
+    def _exceeded(self, front: "Front") -> list[str]:
+        """What the rides ask of the chosen layout beyond its limits, and which rows keep them."""
+        from ..design import with_layout
+
+        beyond = [exceeded(with_layout(self._platform, r.layout), r.figures) for r in front.rated]
+        if not (notes := beyond[front.chosen]):
+            return []
+        within = ", ".join(str(k) for k, each in enumerate(beyond) if not each)
+        return [*notes, f"rows within all limits of the platform (--choose): {within or 'none'}"]
+
     def _designed(self, front: "Front") -> tuple[str, list[str]]:
         """The text of the chosen platform, and what is to be said of it."""
         from ..design import with_layout
@@ -169,7 +200,7 @@ class DesignRun:
 
             more = PreloadTable(contact=(0.0, 0.0, 1.0), force_n=float(round(force + 0.5)))
             changes["preload"] = (*(platform.preload or ()), more)
-        notes = [*_exceeded(platform, row.figures), *_searched_on(front)]
+        notes = [*self._exceeded(front), *searched_on(front)]
         lines = (
             f"designed by atlas-cueing design from {self._platform.name}, over"
             f" {len(self._logs)} rides of {front.ticks} ticks",
@@ -186,65 +217,22 @@ class DesignRun:
         ), notes
 
 
-def _exceeded(platform: "Platform", figures: dict[str, float]) -> list[str]:
-    """What the rides ask of the chosen layout beyond what its file names."""
-    drive, wheels = platform.drive, platform.wheel
-    limits = [
-        ("torque_max_n_m", drive.torque_n_m if drive else None, "drive.torque_n_m"),
-        ("torque_rms_n_m", drive.torque_rms_n_m if drive else None, "drive.torque_rms_n_m"),
-        (
-            "motor_speed_max_rad_s",
-            drive.motor_speed_rad_s if drive else None,
-            "drive.motor_speed_rad_s",
-        ),
-        (
-            "wheel_speed_max_rad_s",
-            min(platform.limits_of_each_wheel().speed),
-            "wheel_limits.speed_rad_s",
-        ),
-        (
-            "wheel_load_max_n",
-            min((each.load_limit_n for each in wheels if each.load_limit_n), default=None),
-            "wheel.load_limit_n",
-        ),
-    ]
-    return [
-        f"these rides ask more of the chosen layout than {key} = {limit:.6g}: {figures[name]:.6g}"
-        for name, limit, key in limits
-        if limit is not None and figures[name] > limit
-    ]
-
-
-def _searched_on(front: "Front") -> list[str]:
-    return [
-        f"searched at the {front.worst_ticks} worst of {front.ticks} ticks, measured at all: at"
-        f" most {100.0 * front.gap:.2g} % worse there"
-    ]
-
-
-def _table(front: "Front", notes: Sequence[str], folder: Path) -> str:
-    from ..design.design_page import cell, name_of, shown_columns
-
-    columns = shown_columns(front)
-    rows = [["layout", *(f"{head} {unit}".strip() for _, head, unit, _, _ in columns)]]
-    for k, row in enumerate(front.rated):
-        cells = [cell(row, key, factor, decimals) for key, _, _, factor, decimals in columns]
-        rows.append([name_of(front, k), *cells])
-    words = [head.split() for head in rows[0]]
-    tall = max(map(len, words))
-    heads = [[*[""] * (tall - len(each)), *each] for each in words]
-    lines = [[head[k] for head in heads] for k in range(tall)] + rows[1:]
-    widths = [max(len(line[k]) for line in lines) for k in range(len(rows[0]))]
-    shown = [
-        "  ".join(
-            [
-                f"{line[0]:<{widths[0]}}",
-                *(f"{c:>{w}}" for c, w in zip(line[1:], widths[1:], strict=True)),
-            ]
+def check_choice(choose: int | None, most: int) -> None:
+    """Raise InputError for a row that a table of `most` rows at most cannot have."""
+    if choose is not None and choose >= most:
+        raise InputError(
+            f"--choose {choose}: the table will have at most {most} rows (the platform's, those of"
+            f" --also, one for each of --searches), allowed: 0 to {most - 1}"
         )
-        for line in lines
-    ]
-    return "\n".join([*shown, *(f"remark: {note}" for note in notes), f"written: {folder}"])
+
+
+def _stamp_in(table: bytes) -> object:
+    """The stamp of a finished design; None where there is none to be read."""
+    try:
+        found = json.loads(table)
+    except (ValueError, RecursionError):
+        return None
+    return found.get("stamp") if isinstance(found, dict) else None
 
 
 @contextmanager

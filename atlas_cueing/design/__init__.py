@@ -11,7 +11,7 @@ design_page     the picture
 """
 
 from .design_page import design_page
-from .front import Front, Rated, search_front
+from .front import Front, Rated, design_stamp, search_front
 from .layout import Layout, layout_of, with_layout
 from .layout_search import Problem
 from .measure import has_rows
@@ -33,6 +33,7 @@ __all__ = [
     "Ridden",
     "check_objectives",
     "design_page",
+    "design_stamp",
     "has_rows",
     "layout_of",
     "log_files",

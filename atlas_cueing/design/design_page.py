@@ -1,6 +1,7 @@
 """One page for a browser: the layouts worth having, as pictures and a table, in one file."""
 
 from collections.abc import Sequence
+from math import floor, log10
 
 from ..atomic_file import PAGE_BEGINS
 from ..batch.page_assets import STYLE
@@ -13,7 +14,8 @@ _ELEVATIONS = (15.0, 60.0)  # deg, from dark to light
 # The ends and middle of matplotlib's viridis: readable in grey and without red and green.
 _COLOURS = ((68, 1, 84), (33, 145, 140), (253, 231, 37))
 
-COLUMNS = (  # key, head, unit, factor, decimals
+Column = tuple[str, str, str, float, int]  # figure, head, unit, factor, decimals
+COLUMNS: tuple[Column, ...] = (
     ("elevation_deg", "elevation", "°", 1.0, 1),
     ("skew_deg", "skew", "°", 1.0, 1),
     ("azimuth_deg", "azimuth", "°", 1.0, 1),
@@ -25,25 +27,53 @@ COLUMNS = (  # key, head, unit, factor, decimals
     ("torque_max_n_m", "torque max", "N m", 1.0, 0),
     ("torque_rms_n_m", "torque rms", "N m", 1.0, 0),
     ("wheel_speed_max_rad_s", "wheel speed", "rad/s", 1.0, 1),
+    ("motor_torque_max_n_m", "motor torque", "N m", 1.0, 1),
+    ("motor_speed_max_rad_s", "motor speed", "rad/s", 1.0, 0),
     ("power_peak_w", "power peak", "kW", 1e-3, 1),
+    ("regenerated_peak_w", "regen. peak", "kW", 1e-3, 1),
     ("lift_off_m_s2", "lift-off", "m/s²", 1.0, 2),
     ("sphere_rate_worst_rad_s", "rate, worst axis", "rad/s", 1.0, 2),
+    ("sphere_acceleration_worst_rad_s2", "accel., worst axis", "rad/s²", 1.0, 2),
     ("clearance_m", "clearance", "m", 1.0, 2),
     ("ripple_rms", "ripple", "%", 100.0, 2),
+    ("row_largest_correction", "largest |C-1|", "%", 100.0, 2),
 )
-"""Columns of the table, here and on the terminal: figure, head, unit, factor and decimals."""
+"""Columns of the table, here and on the terminal."""
 
 _IF_VARIED = ("wheel_radius_m", "gear", "ripple_rms")
+_IF_ASKED = (  # as an objective
+    "motor_torque_max_n_m",
+    "motor_speed_max_rad_s",
+    "regenerated_peak_w",
+    "sphere_acceleration_worst_rad_s2",
+    "row_largest_correction",
+)
+_FIGURES = 2  # digits that the largest of a column has at least
+_NOTHING = 1e-6  # in the unit of a column: less is shown as 0
 
 
-def shown_columns(front: Front) -> list[tuple[str, str, str, float, int]]:
-    """The columns of a table; some only where the layouts differ in them."""
+def shown_columns(front: Front) -> list[Column]:
+    """The columns of a table, each fine enough for its numbers.
+
+    Some are there only where the layouts differ in them, some only where they are objectives.
+    """
+    table = [row.to_json() for row in front.rated]
     return [
-        column
+        _fine(column, max(abs(float(row[column[0]])) for row in table))
         for column in COLUMNS
-        if column[0] not in _IF_VARIED
-        or len({float(row.to_json()[column[0]]) for row in front.rated}) > 1
+        if not (column[0] in _IF_ASKED and column[0] not in front.objectives)
+        and not (column[0] in _IF_VARIED and len({float(row[column[0]]) for row in table}) == 1)
     ]
+
+
+def _fine(column: Column, largest: float) -> Column:
+    """The column with decimals for numbers up to `largest`; kN of a small platform become N."""
+    key, head, unit, factor, decimals = column
+    if unit.startswith("k") and factor * largest < 0.1:
+        unit, factor, decimals = unit[1:], 1.0, 0
+    if factor * largest > _NOTHING:
+        decimals = max(decimals, _FIGURES - 1 - floor(log10(factor * largest)))
+    return key, head, unit, factor, decimals
 
 
 def design_page(

@@ -83,6 +83,20 @@ class Front:
     rounds: int
 
 
+def design_stamp(problem: Problem, asked: Sequence[Layout], searches: int, seed: int) -> str:
+    """A stamp of all that a table of layouts depends on: the same stamp, the same table."""
+    return stamp_of(
+        _content(problem.platform),
+        *_bytes(problem.ridden),
+        problem.start,
+        sorted(problem.ranges.items()),
+        problem.objectives,
+        tuple(asked),
+        searches,
+        seed,
+    )
+
+
 def search_front(
     problem: Problem,
     everything: Ridden,

@@ -49,15 +49,16 @@ def measure(platform: Platform, layout: Layout, ridden: Ridden) -> Measured | No
     gap = wheel_gap(built)
     try:
         model = built.load_model()
-        if gap < 0.0:
-            return None
+        shape = _of_geometry(built)  # also with every row of rollers touching the drives turn it
     except (InputError, SlipConditionError):
+        return None
+    if gap < 0.0:
         return None
     loads = loads_on(model, ridden)
     needed = float(loads.preload_needed.max())
     if not np.isfinite(needed):
         return None
-    figures = _carried(model, loads, needed) | _of_geometry(built)
+    figures = _carried(model, loads, needed) | shape
     figures["gap_m"] = gap
     return Measured(layout, figures, _worst(loads))
 

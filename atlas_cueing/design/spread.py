@@ -4,6 +4,7 @@ import json
 import os
 import signal
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor
 from contextlib import contextmanager
 from hashlib import sha256
 from typing import Any, TypeVar
@@ -34,7 +35,8 @@ def spread(jobs: int, cluster: str | None) -> Iterator["Crew"]:
         from multiprocessing import get_context
 
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-        pool = ProcessPoolExecutor(jobs, get_context("spawn"), _leave_interrupts)
+        pool = ProcessPoolExecutor(jobs, get_context("spawn"))
+        _start_without_interrupts(pool, jobs)
         try:
             yield Crew(pool.submit, shares=2 * jobs)
         finally:
@@ -128,9 +130,12 @@ def stamp_of(*parts: Any) -> str:
     return digest.hexdigest()
 
 
-def _leave_interrupts() -> None:
-    """Ctrl-C is for the driver, which lets its workers end."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+def _start_without_interrupts(pool: Executor, jobs: int) -> None:
+    """Start the processes such that Ctrl-C is for the driver alone, also while they import."""
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)  # new processes inherit it
+    for _ in range(jobs):
+        pool.submit(int)  # starts one, as none has had the time to end
+    signal.signal(signal.SIGINT, before)
 
 
 def _name(stamp: str, work: str, item: Any) -> str:

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from math import isfinite
 
 from ..errors import InputError
+from ..scenario import Platform
 from .layout import Layout
 
 SEARCHED = ("elevation", "skew", "azimuth", "radius", "gear")
@@ -21,21 +22,27 @@ _FACTOR = 2.0  # wheel radius and gear: from half of what they are to twice
 
 
 def ranges_of(
-    vary: Sequence[str], texts: Sequence[str], start: Layout, wheels: int
+    vary: Sequence[str], texts: Sequence[str], start: Layout, platform: Platform
 ) -> tuple[dict[str, tuple[float, float]], bool]:
     """Ranges (low, high) of what is searched, and whether the preload is given to the layout.
 
     vary: words, or lists of them with commas. texts: ranges as KEY=LOW:HIGH, in deg, m, or turns.
-    Raises InputError for unknown words, for ranges of what is not varied, and for nothing to vary.
+    Raises InputError for unknown words, for ranges of what is not varied, for nothing to vary, and
+    for the gear of a platform that names none.
     """
     words = [word.strip() for text in vary for word in text.split(",")]
     for word in words:
         if word not in (*SEARCHED, PRELOAD):
             raise InputError(f"--vary {word}: allowed: {', '.join((*SEARCHED, PRELOAD))}")
+    if "gear" in words and not (platform.drive and platform.drive.gear):
+        raise InputError(
+            f"--vary gear: platform {platform.name!r} has no drive.gear, so nothing is known of a"
+            " motor; give it [drive] with gear, or search without"
+        )
     usual: Mapping[str, tuple[float, float]] = {
         "elevation": _ELEVATION,
         "skew": _SKEW,
-        "azimuth": (0.0, 360.0 / wheels),
+        "azimuth": (0.0, 360.0 / len(platform.wheel)),
         "radius": (start.radius / _FACTOR, start.radius * _FACTOR),
         "gear": (start.gear / _FACTOR, start.gear * _FACTOR),
     }

@@ -81,6 +81,20 @@ class Platform(ScenarioTable):
     plant: PlantTable | None = None
     part: Annotated[tuple[PartTable, ...], SEVERAL] | None = None
 
+    @field_validator("wheel")
+    @classmethod
+    def _rows_meet_the_sphere(
+        cls, wheels: tuple[WheelTable, ...], info: ValidationInfo
+    ) -> tuple[WheelTable, ...]:
+        sphere = info.data.get("sphere")  # missing when it has mistakes of its own
+        most = max((wheel.row_offset_m or 0.0 for wheel in wheels), default=0.0)
+        if sphere and not most < sphere.radius_m:
+            raise object_to(
+                f"row_offset_m = {most:g} puts a row of rollers beside the sphere, allowed: less"
+                f" than sphere.radius_m = {sphere.radius_m:g}"
+            )
+        return wheels
+
     @field_validator("wheel_limits")
     @classmethod
     def _fit_the_wheels(cls, limits: WheelLimitsTable, info: ValidationInfo) -> WheelLimitsTable:

@@ -44,6 +44,10 @@ def test_a_design(command: Command, ridden: Path) -> None:
 
     text = command(*words, "--vary", "elevation,skew,preload", *QUICK, "--choose", "1").out
     assert "1 asked chosen" in text
+    ended = command(*words, "--vary", "elevation,skew,preload", *QUICK, "--choose", "4")
+    assert ended.status == 2
+    assert "at most 4 rows" in ended.err
+    assert "searching" not in ended.err
     picked = load_platform(str(ridden / "out" / "platform.toml"))
     assert picked.geometry().condition_number == pytest.approx(1.0, abs=1e-3)
 
@@ -106,6 +110,51 @@ def test_files_of_others_are_not_replaced(command: Command, ridden: Path) -> Non
     assert "is the platform that is read" in ended.err
     assert mine.read_bytes() == presets()["atlas-2.9m"].read_bytes()
     assert {path.name for path in (ridden / "out").iterdir()} == {"platform.toml"}
+
+
+def test_an_earlier_design_of_other_options_is_not_replaced(command: Command, ridden: Path) -> None:
+    words = ("design", "atlas-2.9m", "--flights", "rides", "-o", "out", "--vary", "skew", *QUICK)
+    assert command(*words).status == 0
+    before = {path.name: path.read_bytes() for path in (ridden / "out").iterdir()}
+    for other in (["--seed", "1"], ["--also", "30/48"], ["--objective", "condition_number"]):
+        ended = command(*words, *other)
+        assert ended.status == 2
+        assert "is of an earlier design of other logs or options" in ended.err
+    (ridden / "rides" / "blend.mcap").unlink()
+    assert command(*words).status == 2
+    assert {path.name: path.read_bytes() for path in (ridden / "out").iterdir()} == before
+    (ridden / "out" / "layouts.json").unlink()
+    assert command(*words).status == 2  # nothing tells that platform.toml is the same
+
+
+def test_a_row_that_the_table_does_not_have(command: Command, ridden: Path) -> None:
+    words = ("design", "atlas-2.9m", "--flights", "rides", "-o", "out", "--vary", "skew", *QUICK)
+    ended = command(*words, "--objective", "condition_number", "--choose", "2")
+    assert ended.status == 2
+    assert "the table has 2 rows, allowed: 0 to 1" in ended.err
+    assert not (ridden / "out" / "platform.toml").exists()
+
+
+def test_gear_and_radius(command: Command, ridden: Path) -> None:
+    words = ("design", "atlas-2.9m-halo", "--flights", "rides", "-o", "out", *QUICK)
+    ended = command(*words, "--vary", "gear,radius", "--choose", "1")
+    assert ended.status == 0, ended.err
+    assert "motor" in ended.out
+    designed = load_platform(str(ridden / "out" / "platform.toml"))
+    assert designed.drive
+    assert designed.drive.gear != 10.0
+    assert designed.drive.torque_n_m == pytest.approx(60.0 * (designed.drive.gear or 0.0))
+    assert designed.wheel[0].radius_m != 0.15
+
+
+def test_a_gear_needs_a_motor(command: Command, ridden: Path) -> None:
+    from atlas_cueing.scenario import presets
+
+    text = presets()["atlas-2.9m"].read_text()
+    (ridden / "bare.toml").write_text(text.replace("\ngear =", "\n# gear ="))
+    ended = command("design", "bare.toml", "--flights", "rides", "-o", "o", "--vary", "gear")
+    assert ended.status == 2
+    assert "has no drive.gear" in ended.err
 
 
 def test_on_a_cluster(command: Command, ridden: Path) -> None:

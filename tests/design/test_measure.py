@@ -54,6 +54,48 @@ def test_figures_are_those_of_the_loads() -> None:
         assert found.figures[name] == pytest.approx(value, rel=1e-12), name
 
 
+@pytest.mark.parametrize(("radius", "gear"), [(0.1, 10.0), (0.25, 10.0), (0.15, 25.0), (0.1, 4.0)])
+def test_radius_and_gear_are_those_of_the_loads(radius: float, gear: float) -> None:
+    from atlas_cueing.scenario.load_tables import DriveTable
+
+    motor = DriveTable(gear=10.0, motor_inertia_kg_m2=0.02, efficiency=0.9, coulomb_n_m=5.0)
+    platform = ATLAS.model_copy(update={"drive": motor})
+    states, ridden = ride(300)
+    layout = replace(START, radius=radius, gear=gear)
+    found = measure_fully(platform, layout, ridden)
+    wheels = [each.model_copy(update={"radius_m": radius}) for each in ATLAS.wheel]
+    geared = {"wheel": tuple(wheels), "drive": motor.model_copy(update={"gear": gear})}
+    loads = platform_loads(platform.model_copy(update=geared), **states)
+    assert found
+    torque, speed = np.abs(loads.torque).max(), np.abs(loads.speed).max()
+    assert found.figures["torque_max_n_m"] == pytest.approx(torque, rel=1e-12)
+    assert found.figures["motor_torque_max_n_m"] == pytest.approx(torque / gear / 0.9, rel=1e-12)
+    assert found.figures["motor_speed_max_rad_s"] == pytest.approx(gear * speed, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["atlas-tabletop"])
+def test_rows_of_rollers_the_search_is_no_worse_than_a_grid(name: str) -> None:
+    from atlas_cueing.wheels import row_corrections
+
+    platform = load_platform(name)
+    start = layout_of(platform)
+    rows = [wheel.rows for wheel in platform.wheel if wheel.rows]
+
+    def worst(elevation: float, skew: float) -> float:
+        built = with_layout(platform, replace(start, elevation=elevation, skew=skew))
+        corrections = row_corrections(built.geometry(), rows).values()
+        return max(float(np.linalg.norm(each - np.eye(3), 2)) for each in corrections)
+
+    best = min(worst(e, k) for e in np.arange(22.0, 60.0, 4.0) for k in np.arange(0.0, 70.0, 4.0))
+    _, ridden = ride(5)
+    ranges = {"elevation": (20.0, 60.0), "skew": (0.0, 70.0)}
+    problem = Problem(platform, start, ranges, ("row_largest_correction",), ridden, (0.0,), (1.0,))
+    found = solve(problem, Mixture((1.0,), 3))
+    assert found
+    assert worst(*found) <= best
+    assert found == pytest.approx([35.3, 45.0], abs=0.5)
+
+
 def test_with_the_preload_of_the_margin_no_wheel_uses_more_than_that() -> None:
     from atlas_cueing.scenario.load_tables import PreloadTable
 

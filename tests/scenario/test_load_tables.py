@@ -120,6 +120,17 @@ def test_refused(path: tuple[str | int, ...], bad: object, message: str) -> None
         Platform.model_validate(data)
 
 
+def test_rows_of_rollers_beside_the_sphere_are_refused() -> None:
+    data = good()
+    rows = {"roller_profile_radius_m": 0.03, "rollers_per_row": 8}
+    for wheel in data["wheel"]:
+        wheel |= {"row_offset_m": 1.4, **rows}
+    Platform.model_validate(data)
+    data["wheel"][1]["row_offset_m"] = 1.45
+    with pytest.raises(ValidationError, match=r"less than sphere\.radius_m = 1\.45"):
+        Platform.model_validate(data)
+
+
 def test_contacts_that_cannot_carry() -> None:
     """Wheels on the equator hold no weight; their rows turn the sphere well enough."""
     data = good()
