@@ -49,6 +49,7 @@ from .review import review_command
 from .run import EPILOG as RUN_EPILOG
 from .run import run_command
 from .streams import safe_streams
+from .text import copyable
 
 # as in a full /tmp
 _OF_THE_SYSTEM = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EMFILE, errno.ENFILE)
@@ -67,22 +68,22 @@ app = typer.Typer(
 # Without a handler Python would print JSBSim's warnings to stderr among ours.
 logging.getLogger("atlas_cueing").addHandler(logging.NullHandler())
 
-app.command("run", epilog=RUN_EPILOG)(run_command)
-app.command("batch", epilog=BATCH_EPILOG)(batch_command)
-app.command("live", epilog=LIVE_EPILOG)(live_command)
-app.command("operate", epilog=OPERATE_EPILOG)(operate_command)
-app.command("review", epilog=REVIEW_EPILOG)(review_command)
-app.command("compare", epilog=COMPARE_EPILOG)(compare_command)
-app.command("recue", epilog=RECUE_EPILOG)(recue_command)
-app.command("recover", epilog=RECOVER_EPILOG)(recover_command)
-app.command("import", epilog=IMPORT_EPILOG)(import_command)
-app.command("export", epilog=EXPORT_EPILOG)(export_command)
-app.command("plant", epilog=PLANT_EPILOG)(plant_command)
-app.command("platform", epilog=PLATFORM_EPILOG)(platform_command)
-app.command("design", epilog=DESIGN_EPILOG)(design_command)
-app.command("new", epilog=NEW_EPILOG)(new_command)
-app.command("keys", epilog=KEYS_EPILOG)(keys_command)
-app.command("list", epilog=LIST_EPILOG)(list_command)
+app.command("run", epilog=copyable(RUN_EPILOG))(run_command)
+app.command("batch", epilog=copyable(BATCH_EPILOG))(batch_command)
+app.command("live", epilog=copyable(LIVE_EPILOG))(live_command)
+app.command("operate", epilog=copyable(OPERATE_EPILOG))(operate_command)
+app.command("review", epilog=copyable(REVIEW_EPILOG))(review_command)
+app.command("compare", epilog=copyable(COMPARE_EPILOG))(compare_command)
+app.command("recue", epilog=copyable(RECUE_EPILOG))(recue_command)
+app.command("recover", epilog=copyable(RECOVER_EPILOG))(recover_command)
+app.command("import", epilog=copyable(IMPORT_EPILOG))(import_command)
+app.command("export", epilog=copyable(EXPORT_EPILOG))(export_command)
+app.command("plant", epilog=copyable(PLANT_EPILOG))(plant_command)
+app.command("platform", epilog=copyable(PLATFORM_EPILOG))(platform_command)
+app.command("design", epilog=copyable(DESIGN_EPILOG))(design_command)
+app.command("new", epilog=copyable(NEW_EPILOG))(new_command)
+app.command("keys", epilog=copyable(KEYS_EPILOG))(keys_command)
+app.command("list", epilog=copyable(LIST_EPILOG))(list_command)
 
 
 def _show_version(asked: bool) -> None:

@@ -26,8 +26,9 @@ Examples:
 
   atlas-cueing batch scenarios/jsbsim_collection.toml -o collection --jobs 2 --sort force_rms_m_s2
 
-The same command again flies only what is missing. On many machines, or to try it here, with the extra cluster: a
-scheduler, workers on every machine, then the batch, to a folder that all of them see:
+The same command again flies only what is missing. On many machines, or to try it here, with the
+extra cluster: a scheduler, workers on every machine, then the batch, to a folder that all of them
+see:
 
   export DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES=1
 
@@ -37,14 +38,16 @@ scheduler, workers on every machine, then the batch, to a folder that all of the
 
   atlas-cueing batch sweep.toml -o /shared/sweep --cluster tcp://127.0.0.1:8786
 
-Or to a URL that fsspec has a driver for, which every worker uploads its finished runs to. No lock keeps a second batch out:
+Or to a URL that fsspec has a driver for, which every worker uploads its finished runs to. No lock
+keeps a second batch out. For s3 fsspec needs s3fs:
 
   atlas-cueing batch sweep.toml -o file:///shared/sweep
 
-  atlas-cueing batch sweep.toml -o s3://bucket/sweep --cluster tcp://127.0.0.1:8786    (with s3fs installed)
+  atlas-cueing batch sweep.toml -o s3://bucket/sweep --cluster tcp://127.0.0.1:8786
 
-Whoever reaches a scheduler or worker can run any program there: use addresses of a private network only, in place of each
-127.0.0.1 above; without --dashboard-address both answer the whole world over HTTP.
+Whoever reaches a scheduler or worker can run any program there: use addresses of a private network
+only, in place of each 127.0.0.1 above; without --dashboard-address both answer the whole world over
+HTTP.
 
 A file with a [sweep] table stands for many runs:
 

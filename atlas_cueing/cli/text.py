@@ -1,6 +1,7 @@
 """Numbers as text, for people and for programs."""
 
 import json
+import re
 from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import Any
@@ -24,6 +25,9 @@ What the figures say of a ride, beside the limits that it keeps:
 """  # noqa: E501 - a paragraph a line
 """End of the help of commands that show figures; `evaluation.metric_table` has the definitions."""
 
+_COMMAND = re.compile(r"^  (?:atlas-cueing|dask) .*$", re.MULTILINE)
+_WIDTH = 76  # characters of a command in a help text, which is 80 wide
+
 TRUST_MODELS = (  # help of --trust-models
     "Fly a script, an aircraft or a cueing method that lies beside the scenario; it is a program"
     " of whoever wrote it."
@@ -33,6 +37,25 @@ TRUST_MODELS = (  # help of --trust-models
 def one_json(figures: Mapping[str, Any]) -> str:
     """One JSON object; a number that is not finite is null, as JSON has no other word for it."""
     return json.dumps(_plain(figures), allow_nan=False, indent=2)
+
+
+def copyable(epilog: str) -> str:
+    """The end of a help text, with long commands broken by a backslash, as a shell takes them.
+
+    A command is a line of its own that begins with two blanks and the name of a program.
+    """
+    return _COMMAND.sub(lambda found: "\b\n" + _broken(found[0]), epilog)
+
+
+def _broken(command: str) -> str:
+    """The command in lines of at most _WIDTH characters, broken before options."""
+    first, *options = re.split(" +(?=-)", command)
+    lines = [first]
+    for option in options:
+        if len(lines[-1]) + len(option) + len("  \\") > _WIDTH:
+            lines.append("     ")
+        lines[-1] += f" {option}"
+    return " \\\n".join(lines)
 
 
 def aligned(rows: Sequence[tuple[str, str]], indent: str = "  ") -> list[str]:

@@ -63,6 +63,20 @@ def test_help_has_examples(command: Command, arguments: list[str]) -> None:
     assert "atlas-cueing " + (arguments[0] if len(arguments) > 1 else "run") in ended.out
 
 
+@pytest.mark.parametrize("word", ["batch", "design", "live", "recue", "run"])
+def test_examples_can_be_copied_from_the_help(command: Command, word: str) -> None:
+    import re
+
+    from atlas_cueing import cli
+
+    epilog = getattr(cli, f"{word.upper()}_EPILOG")
+    examples = re.findall(r"^  (atlas-cueing .*)$", epilog, re.MULTILINE)
+    shown = command(word, "--help").out
+    assert max(map(len, shown.splitlines())) <= 80
+    lines = re.sub(r"\s*\\\n\s*", " ", shown).splitlines()
+    assert {" ".join(each.split()) for each in examples} <= {each.strip() for each in lines}
+
+
 @pytest.mark.parametrize("word", ["run", "review", "compare"])
 def test_help_says_what_figures_mean(command: Command, word: str) -> None:
     told = " ".join(command(word, "--help").out.split())

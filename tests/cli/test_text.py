@@ -3,7 +3,7 @@ import json
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from atlas_cueing.cli.text import aligned, one_json
+from atlas_cueing.cli.text import aligned, copyable, one_json
 
 leaves = st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=5))
 values = st.recursive(
@@ -34,3 +34,12 @@ def test_numbers_keep_every_bit() -> None:
 def test_values_stand_under_each_other() -> None:
     assert aligned([("a", "1"), ("long", "2"), ("b", "")]) == ["  a     1", "  long  2", "  b"]
     assert aligned([]) == []
+
+
+def test_commands_of_a_help_can_be_copied() -> None:
+    command = "  atlas-cueing run a_scenario.toml " + " ".join(f"--set key_{k}=2" for k in range(9))
+    text = copyable(f"\nExample:\n\n{command}\n\nAnd no word of it is lost, however long it is.\n")
+    shown = text.split("\b\n")[1].split("\n\n")[0]
+    assert shown.replace("\\\n", " ").split() == command.split()
+    assert max(map(len, shown.splitlines())) < 80
+    assert text.endswith("\n\nAnd no word of it is lost, however long it is.\n")
