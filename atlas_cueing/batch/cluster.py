@@ -16,20 +16,23 @@ of a private network. Without --dashboard-address both answer on all interfaces,
 """
 
 import threading
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from functools import partial
-from itertools import islice
-from time import sleep
+from math import inf
+from time import monotonic, sleep
 from typing import Any
 
 from ..errors import InputError, MissingExtraError
 from .job import Job
+from .job_queue import JobQueue
 from .job_result import JobResult
 from .pool import ATTEMPTS, Stop, Worker, lost
 
 LOCAL = "local"  # in place of an address: a scheduler and workers on 127.0.0.1, for this batch only
-_UNDER_WAY = 2000  # runs that the scheduler knows at a time; it needs some 10 kB for each
+_AHEAD = 2  # jobs that wait at a worker beside those that it flies
+_LOOK_EVERY = 1.0  # s from one look at who is in the cluster to the next
 _PATIENCE = 0.1  # s from one look at the scheduler to the next
 _TIMEOUT = 10.0  # s to reach the scheduler
 _own = threading.local()  # a worker process for each thread of a dask worker
@@ -54,26 +57,64 @@ def on_cluster(
 def _fly(client: Any, todo: Iterable[Job], stop: Stop) -> Iterator[JobResult]:
     from distributed import as_completed
 
-    jobs = iter(todo)
-    known: dict[str, Job] = {}
-
-    def submit(count: int) -> list[Any]:
-        """Submit the next jobs, `count` at most, and return their futures."""
-        batch = list(islice(jobs, count))
-        known.update({job.id: job for job in batch})
-        # The key makes a run that is under way for a driver that was killed be waited for instead
-        # of flown twice.
-        return [client.submit(fly_job, job, key=job.id, retries=0) for job in batch]
-
-    waiting = as_completed(submit(_UNDER_WAY))
-    while waiting.count() and not stop():
+    seats = _Seats(client, todo)
+    waiting = as_completed(seats.filled())
+    while (waiting.count() or seats.left) and not stop():
         if not waiting.has_ready():
             sleep(_PATIENCE)
+            waiting.update(seats.filled())
             continue
         for future in waiting.next_batch(block=True):
-            result = _result(future, known.pop(future.key))
-            waiting.update(submit(1))
+            result = _result(future, seats.leave(future.key))
+            waiting.update(seats.filled())
             yield result
+
+
+class _Seats:
+    """The dask workers with the jobs that wait at each: a few, of the flight that it has."""
+
+    def __init__(self, client: Any, todo: Iterable[Job]) -> None:
+        self._client = client
+        self._todo = JobQueue(todo)
+        self._flights: dict[str, str] = {}  # worker to the flight of its last job
+        self._seated: dict[str, tuple[Job, str]] = {}  # jobs by id, with their worker
+        self._threads: dict[str, int] = {}
+        self._looked = -inf
+
+    @property
+    def left(self) -> bool:
+        """Whether there are jobs that nobody has been given."""
+        return bool(self._todo)
+
+    def leave(self, name: str) -> Job:
+        """Return the job that has been done."""
+        return self._seated.pop(name)[0]
+
+    def filled(self) -> list[Any]:
+        """Submit jobs for all seats that are free, and return their futures."""
+        if monotonic() - self._looked > _LOOK_EVERY:
+            self._threads, self._looked = self._client.nthreads(), monotonic()
+        waiting = Counter(worker for _, worker in self._seated.values())
+        return [
+            self._submit(job, worker)
+            for worker, threads in self._threads.items()
+            for _ in range(_AHEAD + threads - waiting[worker])
+            if (job := self._next(worker))
+        ]
+
+    def _next(self, worker: str) -> Job | None:
+        others = {flight for other, flight in self._flights.items() if other != worker}
+        return self._todo.next(self._flights.get(worker, ""), others)
+
+    def _submit(self, job: Job, worker: str) -> Any:
+        self._flights[worker] = job.flight
+        self._seated[job.id] = (job, worker)
+        # The key makes a run that is under way for a driver that was killed be waited for instead
+        # of flown twice. The worker is a wish: when it is lost, or others have nothing left to do,
+        # the scheduler gives the job to them.
+        return self._client.submit(
+            fly_job, job, key=job.id, retries=0, workers=[worker], allow_other_workers=True
+        )
 
 
 def _result(future: Any, job: Job) -> JobResult:

@@ -16,6 +16,11 @@ class JobQueue:
         self._more = iter(jobs)
         self._seen: deque[Job] = deque()
 
+    def __bool__(self) -> bool:
+        """Whether there are jobs left."""
+        self._look_ahead()
+        return bool(self._seen)
+
     def next(self, flight: str, others: Collection[str] = ()) -> Job | None:
         """Give the next job for a worker that last flew `flight`; None when there are no more.
 
@@ -23,8 +28,7 @@ class JobQueue:
 
         others: flights of the other workers.
         """
-        while len(self._seen) < AHEAD and (job := next(self._more, None)):
-            self._seen.append(job)
+        self._look_ahead()
         if not self._seen:
             return None
         fit = (each for each in self._seen if each.flight == flight and flight)
@@ -32,3 +36,7 @@ class JobQueue:
         chosen = next(fit, None) or next(free, None) or self._seen[0]
         self._seen.remove(chosen)
         return chosen
+
+    def _look_ahead(self) -> None:
+        while len(self._seen) < AHEAD and (job := next(self._more, None)):
+            self._seen.append(job)

@@ -52,12 +52,27 @@ def test_the_same_bytes_as_without_a_cluster(tmp_path: Path, address: str) -> No
 def test_more_runs_than_the_scheduler_is_told_of_at_a_time(
     tmp_path: Path, address: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(cluster_module, "_UNDER_WAY", 2)
+    monkeypatch.setattr(cluster_module, "_AHEAD", 0)
     runs = planned(tmp_path)
     with on_cluster(address, 2) as fly:
         assert {
             result.id for result in fly((job_of(run, tmp_path) for run in runs), lambda: False)
         } == {run.id for run in runs}
+
+
+def test_a_worker_that_joins_late_gets_its_share(tmp_path: Path) -> None:
+    from distributed import LocalCluster
+
+    runs = planned(tmp_path)
+    with (
+        LocalCluster(n_workers=0, host="127.0.0.1", dashboard_address="127.0.0.1:0") as local,
+        on_cluster(local.scheduler_address, 1) as fly,
+    ):
+        joining = threading.Timer(0.5, local.scale, (1,))
+        joining.start()
+        results = list(fly((job_of(run, tmp_path) for run in runs), lambda: False))
+        joining.join()
+    assert {result.id for result in results} == {run.id for run in runs}
 
 
 def test_stopping_begins_nothing_more(tmp_path: Path, address: str) -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from atlas_cueing.batch import on_cluster
 from atlas_cueing.batch import pool as workers
 from atlas_cueing.batch.job import Job
 from atlas_cueing.batch.job_result import JobResult
@@ -94,6 +95,34 @@ def test_no_more_flights_than_workers(tmp_path: Path, monkeypatch: pytest.Monkey
     results, opened = flown(monkeypatch, tmp_path, count=3)
     assert [result.result for result in results] == ["ok"] * 12
     assert 2 <= len(opened) <= 2 * 3
+
+
+def test_a_dask_worker_stays_with_its_flight(tmp_path: Path) -> None:
+    from distributed import Client, LocalCluster
+
+    told, code = tmp_path / "told", _TELLING.format(told=str(tmp_path / "told"), deed="pass")
+
+    def tell() -> None:
+        from atlas_cueing.batch import pool
+
+        pool._COMMAND = (sys.executable, "-c", code)
+
+    text = SWEEP.replace("[0.2, 0.3]", "[0.2, 0.3, 0.4]").replace(', "perceptual"', "")
+    (tmp_path / "out").mkdir()
+    todo = [job_of(run, tmp_path / "out") for run in planned(tmp_path, text=text)]
+    mixed = [todo[4 * flight + ride] for ride in range(4) for flight in range(3)]
+    assert len({job.flight for job in mixed[:3]}) == 3
+    with (
+        LocalCluster(
+            n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0"
+        ) as local,
+        Client(local) as client,
+        on_cluster(local.scheduler_address, 2) as fly,
+    ):
+        client.run(tell)
+        results = list(fly(mixed, lambda: False))
+    assert [each.result for each in results] == ["ok"] * 12
+    assert 3 <= len(told.read_text().split()) <= 4  # one more when the last one is shared
 
 
 def test_a_vehicle_that_fails_fails_in_every_ride(
