@@ -2,14 +2,13 @@
 
 On purpose this shares nothing with `loads`: in W instead of S, with moments about the centre of
 mass instead of the sphere's, and normal forces by the equations of least complementary energy with
-multipliers instead of springs. Symbols as there.
+multipliers, and non-negative least squares, instead of springs. Symbols as there.
 """
 
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..rotations import Array
 from ..scenario import Platform
@@ -17,15 +16,18 @@ from .own_rotations import cross, to_matrix
 from .recorded_run import RecordedRun
 
 _GRAVITY_W = np.array([0.0, 0.0, -9.80665])
-_MOST_OPENED = 100
+_BALANCE = 1e6  # weight of the balance of forces beside the springs
+_ROUNDING = 1e-9  # of the forces: so little out of balance, or negative, is rounding
+_BESIDE = 1e-7  # of the forces: so much out of balance is no equilibrium
 
 
 @dataclass(frozen=True)
 class LoadsAgain:
     """Loads of n ticks on N wheels.
 
-    drive, normal (n, N), N; torque (n, N), N m; power (n, N), W. A normal force is NaN where
-    contacts open and no equilibrium was found.
+    drive, normal (n, N), N; torque (n, N), N m; power (n, N), W. Where no push of the contacts
+    holds the sphere, normal forces are those of contacts that can pull; they are NaN where it is a
+    matter of rounding whether one does.
     """
 
     drive: Array
@@ -116,52 +118,52 @@ def _normal_forces(platform: Platform, wheels: Array, push: Array) -> Array:
         ]
     )
     held = np.array([0.0] * len(wheels) + [each.preload_n for each in supports])
-    closed = np.ones(len(contacts), np.bool_)
-    forces, _ = _least_energy(contacts, softness, held, closed, push)
+    forces = _least_energy(contacts, softness, held, push)
     if len(contacts) > 3:
         for k in np.flatnonzero(np.any(forces <= 0.0, axis=1)).tolist():
-            forces[k] = _with_open(contacts, softness, held, push[k], forces[k])
+            opened = _with_open(contacts, softness, held, push[k])
+            forces[k] = forces[k] if opened is None else opened
     return forces
 
 
-def _least_energy(
-    contacts: Array, softness: Array, held: Array, closed: NDArray[np.bool_], push: Array
-) -> tuple[Array, Array]:
-    """Minimise sum (n - held)^2 softness / 2 of the closed contacts, -sum n u = push (n, 3).
+def _least_energy(contacts: Array, softness: Array, held: Array, push: Array) -> Array:
+    """Minimise sum (n - held)^2 softness / 2 with -sum n u = push (n, 3): forces (n, N).
 
-    Returns the forces (n, N + M), and the multipliers (n, 3): the displacement of the sphere.
+    By the equations with multipliers; in the sense of least squares, as fewer than three contacts
+    leave the sphere free to move, which changes no force.
     """
-    U, soft, count = contacts[closed], softness[closed], int(closed.sum())
-    scale = float(np.mean(soft))
-    system = np.block([[np.diag(soft / scale), -U], [U.T, np.zeros((3, 3))]])
-    sides = np.hstack([np.tile(held[closed] * soft / scale, (len(push), 1)), -push])
-    solved = np.linalg.solve(system, sides.T).T
-    forces = np.zeros((len(push), len(contacts)))
-    forces[:, closed] = solved[:, :count]
-    return forces, solved[:, count:] * scale
+    soft, count = softness / float(np.mean(softness)), len(contacts)
+    system = np.block([[np.diag(soft), -contacts], [contacts.T, np.zeros((3, 3))]])
+    sides = np.hstack([np.tile(held * soft, (len(push), 1)), -push])
+    solved: Array = np.linalg.lstsq(system, sides.T, rcond=None)[0].T[:, :count]
+    return solved.astype(np.float64)
 
 
-def _with_open(
-    contacts: Array, softness: Array, held: Array, push: Array, bilateral: Array
-) -> Array:
-    """Open the contact that pulls most, again and again; NaN if that ends in no equilibrium.
+def _with_open(contacts: Array, softness: Array, held: Array, push: Array) -> Array | None:
+    """The forces (N + M,) of least energy of which none is negative; None where no push holds.
 
-    Without any equilibrium at all the log has the bilateral forces; they are given where opening
-    leaves fewer than three contacts.
+    Which contacts push is found by non-negative least squares (Lawson & Hanson, Solving Least
+    Squares Problems, 1974, chapter 23), the balance weighing most; how much, by the equations.
+    NaN where rounding decides whether the sphere can be held, or which contacts push.
     """
-    closed = np.ones(len(contacts), np.bool_)
-    forces, moved = bilateral, np.zeros(3)
-    for _ in range(_MOST_OPENED):
-        if forces[closed].min() >= 0.0:
-            gap = held + (contacts @ moved) / softness
-            fair = bool(np.all(gap[~closed] <= 1e-6 * np.abs(forces).max()))
-            return forces if fair else np.full(len(contacts), np.nan)
-        closed[np.flatnonzero(closed)[int(np.argmin(forces[closed]))]] = False
-        if closed.sum() < 3 or np.linalg.cond(contacts[closed]) > 1e6:
-            return np.full(len(contacts), np.nan)
-        solved, multipliers = _least_energy(contacts, softness, held, closed, push[None])
-        forces, moved = solved[0], multipliers[0]
-    return np.full(len(contacts), np.nan)
+    from scipy.optimize import nnls
+
+    scale = float(np.abs(push).max() + held.max())
+    missing = nnls(contacts.T, -push / scale)[1]  # how far the push is outside what contacts give
+    if missing > _BESIDE:
+        return None
+    root = np.sqrt(softness / float(np.mean(softness)))
+    weighed = np.vstack([np.diag(root), _BALANCE * contacts.T])
+    found, _ = nnls(weighed, np.concatenate([root * held, -_BALANCE * push]) / scale)
+    closed = found > 0.0
+    forces = np.zeros(len(contacts))
+    if np.any(closed):
+        only = contacts[closed], softness[closed], held[closed], push[None]
+        forces[closed] = _least_energy(*only)[0]
+    balance = np.abs(forces @ contacts + push).max()
+    if missing > _ROUNDING or balance > _ROUNDING * scale or forces.min() < -_ROUNDING * scale:
+        return np.full(len(contacts), np.nan)
+    return forces
 
 
 def _unit(v: tuple[float, float, float] | Array) -> Array:

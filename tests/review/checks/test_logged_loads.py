@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from atlas_cueing.loads import balance, load_columns
+from atlas_cueing.loads.normal_forces import bilateral_forces
 from atlas_cueing.recording import TopicColumns
 from atlas_cueing.review import RecordedRun
+from atlas_cueing.review import loads_again as loads_module
 from atlas_cueing.review.checks.logged_loads import check_contact_loads, traction_notes
 from atlas_cueing.review.loads_again import loads_again
 from atlas_cueing.scenario import Platform, load_platform, presets
@@ -67,10 +69,35 @@ def test_two_derivations_of_a_wild_motion(name: str) -> None:
     for name in ("drive", "torque", "power"):
         found, expected = getattr(again, name), getattr(loads, name)
         np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-8)
-    known = np.all(np.isfinite(again.normal), axis=1)
-    assert known.mean() > 0.9
-    np.testing.assert_allclose(again.normal[known], loads.normal[known], rtol=1e-8, atol=1e-5)
+    np.testing.assert_allclose(again.normal, loads.normal, rtol=1e-8, atol=1e-5)
     assert np.any(~loads.all_in_contact)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 5])
+def test_forces_where_few_contacts_push(count: int) -> None:
+    """A displaced sphere on springs: its forces are known, and so what they hold."""
+    platform = load_platform("atlas-2.9m-halo")
+    wheels = np.array([wheel.wheel().contact for wheel in platform.wheel])
+    supports = [each.support() for each in platform.support or ()]
+    contacts = np.array([*wheels, *(each.contact for each in supports)])
+    stiffness = np.array([2e6] * 3 + [each.stiffness for each in supports])
+    held = np.array([0.0] * 3 + [each.preload for each in supports])
+    moved = np.random.default_rng(8).normal(size=(4000, 3)) * 2e-3
+    forces = np.maximum(held + stiffness * (moved @ contacts.T), 0.0)
+    forces = forces[(forces > 0.0).sum(axis=1) == count][:40]
+    assert len(forces) >= 5
+    found = loads_module._normal_forces(platform, wheels, -forces @ contacts)
+    np.testing.assert_allclose(found, forces, rtol=1e-9, atol=1e-7)
+
+
+def test_forces_where_no_push_holds_are_those_of_contacts_that_pull() -> None:
+    platform = load_platform("atlas-2.9m-halo")
+    wheels = np.array([wheel.wheel().contact for wheel in platform.wheel])
+    down = np.array([[0.0, 0.0, -1e5], [300.0, 0.0, -1e5]])
+    found = loads_module._normal_forces(platform, wheels, down)
+    assert np.all(found.min(axis=1) < 0.0)
+    expected = bilateral_forces(platform.load_model(), down)
+    np.testing.assert_allclose(found, expected, rtol=1e-9)
 
 
 @pytest.mark.parametrize(
