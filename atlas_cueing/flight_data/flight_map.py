@@ -183,18 +183,13 @@ class GridTable(ScenarioTable):
 class CsvTable(ScenarioTable):
     """`[csv]`: how the file is written.
 
-    delimiter: by default what parts the header. decimal: a comma needs another delimiter.
+    delimiter: by default what parts the header. decimal: a comma beside commas as delimiters has to
+    be within quotes.
     """
 
     delimiter: Annotated[str, _one_of(",", ";", "\t", " ", "|"), _TAB] | None = None
     decimal: Annotated[str, _one_of(".", ",")] = "."
     header_line: Annotated[int, whole(1, 10_000)] = 1
-
-    @model_validator(mode="after")
-    def _fits(self) -> "CsvTable":
-        if self.delimiter == self.decimal:
-            raise object_to("delimiter and decimal are both ',', allowed: two different marks")
-        return self
 
 
 class FlightMap(ScenarioTable):

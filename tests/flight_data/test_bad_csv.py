@@ -107,8 +107,30 @@ def test_decimal_commas(tmp_path: Path, delimiter: str) -> None:
     (tmp_path / "a.csv").write_text("\n".join([*german[:10], delimiter.join(thousands)]))
     with pytest.raises(InputError, match=r"line 11, column 'fx' = '1\.234,5'"):
         import_flight(tmp_path / "a.csv", load_map("csv", ["csv.decimal=,"]))
-    with pytest.raises(ScenarioError, match="delimiter and decimal are both ','"):
-        load_map("csv", ["csv.decimal=,", "csv.delimiter=,"])
+
+
+@pytest.mark.parametrize("delimiter", [",", ", ", ";", "\t"])
+@pytest.mark.parametrize("settings", [[], ["csv.delimiter=','"]])
+def test_decimal_commas_within_quotes(tmp_path: Path, delimiter: str, settings: list[str]) -> None:
+    """Also where commas part the columns, as spreadsheets write them."""
+    head, *lines = lines_of(tmp_path)
+    rows = [[f'"{cell}"' for cell in line.replace(".", "!").split(",")] for line in lines]
+    german = [delimiter.join(row).replace("!", ",") for row in rows if len(row) > 1]
+    header = delimiter.join(head.split(","))
+    (tmp_path / "a.csv").write_text("\n".join([header, *german]))
+    own = [setting.replace("','", f"'{delimiter.strip(' ')}'") for setting in settings]
+    found = import_flight(tmp_path / "a.csv", load_map("csv", ["csv.decimal=','", *own]))
+    assert np.array_equal(found.flights[0].f_B, FLOWN.f_B)
+    with pytest.raises(InputError, match=r"line 2, column 'time_s' = '0,0', .*csv\.decimal"):
+        import_flight(tmp_path / "a.csv", load_map("csv", own))
+
+
+def test_decimal_commas_among_commas_without_quotes_are_refused(tmp_path: Path) -> None:
+    head, *lines = lines_of(tmp_path)
+    (tmp_path / "a.csv").write_text("\n".join([head, *(each.replace(".", ",") for each in lines)]))
+    for settings in ([], ["csv.decimal=','"]):
+        with pytest.raises(InputError, match=r"line 2: \d+ columns.*or quotes around each number"):
+            import_flight(tmp_path / "a.csv", load_map("csv", settings))
 
 
 def imported_as_it_is(folder: Path) -> np.ndarray:

@@ -76,11 +76,17 @@ def _header(path: Path, flight_map: FlightMap) -> tuple[list[str], str]:
     number = flight_map.csv.header_line
     for line, text in _lines(path, lambda _: None):
         if line == number:
-            parting = [mark for mark in _DELIMITERS if mark != flight_map.csv.decimal]
-            delimiter = flight_map.csv.delimiter or max(parting, key=text.count)
+            delimiter = flight_map.csv.delimiter or _parting(text, flight_map.csv.decimal)
             names = [name.strip() for name in _cells(path, line, text, delimiter)]
             return names, delimiter
     raise InputError(f"{path}: line {number}: missing, where the header should be")
+
+
+def _parting(header: str, decimal: str) -> str:
+    """What parts a header: the decimal mark only where nothing else does, and then blanks."""
+    marks = [mark for mark in _DELIMITERS if mark not in (decimal, " ")]
+    most = max(marks, key=header.count)
+    return most if most in header else decimal if decimal in header else " "
 
 
 def _column(path: Path, key: str, names: tuple[str, ...], header: Sequence[str]) -> str:
@@ -128,7 +134,8 @@ def _cells(path: Path, line: int, text: str, delimiter: str) -> list[str]:
     if '"' not in text:
         return text.split(delimiter)
     try:
-        return next(csv.reader([text], delimiter=delimiter))
+        # quotes count behind a blank as well, as in `1, "2,5"`
+        return next(csv.reader([text], delimiter=delimiter, skipinitialspace=delimiter != " "))
     except csv.Error as error:
         raise InputError(f"{path}: line {line}: {error}, allowed: a line of CSV") from error
 
@@ -139,8 +146,11 @@ def _check_rest(path: Path, line: int, cells: list[str], written: _Written) -> N
     if not any(cell.strip() for cell in cells[most:]):
         return
     hint = ""
-    if written.delimiter == "," and written.decimal == ".":
-        hint = "; are its decimals commas? then another delimiter and csv.decimal of the map"
+    if written.delimiter == ",":
+        hint = (
+            "; are its decimals commas? then another delimiter and csv.decimal of the map, or"
+            " quotes around each number"
+        )
     raise InputError(
         f"{path}: line {line}: {len(cells)} columns, allowed: the {most} of the header{hint}"
     )
