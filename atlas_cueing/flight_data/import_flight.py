@@ -79,7 +79,8 @@ def import_flight(
             f"{path}: is a folder, allowed for the format {flight_map.format!r}: a file"
         )
     read = READERS[flight_map.format](path, flight_map, lambda share: progress(_READING * share))
-    notes = [f"{part}: not in the file" for part in ("attitude",) if _is_lacking(flight_map, read)]
+    notes = list(dict.fromkeys(note for samples in read.values() for note in samples.notes))
+    notes += [f"{part}: not in the file" for part in ("attitude",) if _is_lacking(flight_map, read)]
     parts = _series(str(path), read, flight_map)
     notes += _stamp_notes(parts)
     factors = {part: _factors(path, part, samples, flight_map) for part, samples in read.items()}

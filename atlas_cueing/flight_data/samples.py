@@ -24,7 +24,8 @@ class Samples:
         `line` or `message`.
     rows: (n,) number of each, from 1 on. stamps: (n,) in the unit of the time column; whole numbers
         lose nothing however large they are. values: (n, columns), NaN where the file has none.
-    columns: names as the file has them. time: name of the time column.
+    columns: names as the file has them. time: name of the time column. notes: what is wrong with
+        the file as a whole.
     """
 
     table: str
@@ -34,6 +35,7 @@ class Samples:
     values: Array
     columns: tuple[str, ...]
     time: str
+    notes: tuple[str, ...] = ()
 
     def place(self, index: int) -> str:
         """Where a sample stands in the file, for messages."""

@@ -125,6 +125,24 @@ def test_damaged_files_are_refused_by_name(
     assert "\n" not in str(caught.value)
 
 
+def test_a_damaged_dataflash_log_is_read_as_far_as_it_goes_and_says_so(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    whole = dataflash(tmp_path / "a.bin", FLOWN).read_bytes()
+    begin = whole.index(b"\xa3\x95", len(whole) // 2)
+    (tmp_path / "a.bin").write_bytes(whole[: begin + 2] + b"\xc2" + whole[begin + 3 :])
+    found = import_flight(tmp_path / "a.bin", load_map("ardupilot"))
+    told = f"the file is damaged, unknown msg type 0xc2 (194) at {begin}; what comes after it"
+    assert found.notes[0].startswith(told)
+    assert 0.4 < found.flights[0].time[-1] / FLOWN.time[-1] < 0.6
+    (tmp_path / "a.bin").write_bytes(whole[: begin + 1] + b"?" + whole[begin + 2 :])
+    found = import_flight(tmp_path / "a.bin", load_map("ardupilot"))
+    assert "the file is damaged, bad header 0xa33f" in found.notes[0]
+    assert "left out" not in found.notes[0]
+    assert found.flights[0].time[-1] > 0.98 * FLOWN.time[-1]
+    assert capfd.readouterr() == ("", "")
+
+
 def test_what_is_not_in_the_file_is_named_with_what_is(tmp_path: Path) -> None:
     bag = ros_bag(tmp_path / "bag", FLOWN, "MCAP")
     for settings, told in (

@@ -4,10 +4,15 @@ A table is a message (`IMU`), time `TimeUS` in whole us. Messages with a field `
 several sensors, of which one is chosen by its instance.
 """
 
-from contextlib import redirect_stderr, redirect_stdout, suppress
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stderr, redirect_stdout, suppress
+from dataclasses import replace
 from io import StringIO
 from pathlib import Path
-from typing import Any
+from tempfile import TemporaryFile
+from typing import Any, BinaryIO
 
 import numpy as np
 
@@ -17,6 +22,8 @@ from ..samples import Part, Progress, Samples, Wanted, chosen, missing, wanted
 
 _HEAD = b"\xa3\x95"  # of every binary message
 _TEXT = (b"FMT,", b"FMT ")
+_LAST = "unknown msg type"  # behind which pymavlink reads no more
+_DAMAGE = ("bad header", _LAST)  # how its lines begin
 _OFTEN = 2000  # messages between two reports
 
 
@@ -30,8 +37,9 @@ def read_dataflash(path: Path, flight_map: FlightMap, progress: Progress) -> dic
     log = kind.__new__(kind)  # made in two steps, so that its file is closed whatever happens
     try:
         with redirect_stdout(StringIO()), redirect_stderr(StringIO()):  # it prints what is wrong
-            log.__init__(str(path))
-            return _parts(path, log, flight_map, progress)
+            notes = _opened(path, log)
+            found = _parts(path, log, flight_map, progress)
+        return {part: replace(samples, notes=notes) for part, samples in found.items()}
     except InputError:
         raise
     except Exception as error:
@@ -44,6 +52,34 @@ def read_dataflash(path: Path, flight_map: FlightMap, progress: Progress) -> dic
             if hasattr(log, name):
                 with suppress(BufferError):  # an error that is on its way still looks at the map
                     getattr(log, name).close()
+
+
+def _opened(path: Path, log: Any) -> tuple[str, ...]:
+    """Read where the messages are, and say where the file is damaged, if it is."""
+    with _printed() as told:
+        log.__init__(str(path))
+        told.seek(0)
+        lines = told.read().decode(errors="replace").splitlines()
+    places = [line for line in lines if line.startswith(_DAMAGE)]
+    if not places:
+        return ()
+    more = f" and at {len(places) - 1} more places" if len(places) > 1 else ""
+    end = "; what comes after it is left out" if any(_LAST in line for line in places) else ""
+    return (f"the file is damaged, {places[0]}{more}{end}",)
+
+
+@contextmanager
+def _printed() -> Iterator[BinaryIO]:
+    """A file with what is printed on stderr meanwhile, also by compiled code."""
+    with TemporaryFile() as told:
+        sys.stderr.flush()
+        before = os.dup(2)
+        os.dup2(told.fileno(), 2)
+        try:
+            yield told
+        finally:
+            os.dup2(before, 2)
+            os.close(before)
 
 
 def _parts(path: Path, log: Any, flight_map: FlightMap, progress: Progress) -> dict[Part, Samples]:
