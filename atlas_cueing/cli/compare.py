@@ -1,5 +1,6 @@
 """`atlas-cueing compare`: several logs of one flight side by side."""
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -60,6 +61,7 @@ def compare_command(
     from .open_page import check_figure, check_pages
     from .text import one_json, say
 
+    logs = _each_once(logs)
     if html:
         (html,) = check_pages([html], inputs=logs, force=force)
     figure = check_figure(figure, inputs=logs, pages=[html], force=force)
@@ -81,6 +83,20 @@ def compare_command(
             for finding in each.findings:
                 say(f"{name}: {finding}")
         raise typer.Exit(1)
+
+
+def _each_once(logs: list[Path]) -> list[Path]:
+    """The logs without those that are given again, as by `*.mcap still.mcap`; says which."""
+    from .text import say
+
+    found: dict[str, Path] = {}
+    for log in logs:
+        file = os.path.realpath(log)
+        if file in found:
+            also = f", also as {found[file]}" if found[file] != log else ""
+            say(f"{log} is given twice{also}; it is compared once")
+        found.setdefault(file, log)
+    return list(found.values())
 
 
 def comparison_table(comparison: "Comparison") -> str:

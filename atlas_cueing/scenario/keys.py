@@ -15,6 +15,7 @@ from pydantic_core import PydanticUndefined
 from ..cueing import METHODS
 from ..cueing.parameter import UNITS, Parameter
 from ..cueing.stage.stage_parameters import FORCE_GAIN, STAGE
+from ..errors import InputError
 from .cueing_table import TABLES
 from .method_table import MethodTable
 from .mistakes import allowed
@@ -73,8 +74,13 @@ class KeyEntry:
         return f"{self.key}{default}{unit}{of}: {self.allowed}; {self.meaning}"
 
 
-def keys(prefix: str = "") -> list[KeyEntry]:
-    """List the keys that begin with `prefix`, in the order of a file."""
+def keys(prefix: str = "", method: str = "") -> list[KeyEntry]:
+    """List the keys that begin with `prefix`, in the order of a file; of one method if it is named.
+
+    Raises InputError for a method that is none.
+    """
+    if method and method not in TABLES:
+        raise InputError(f"--method {method}: allowed: {', '.join(TABLES)}")
     found = [
         *_of_table(ScenarioFile, skip=("vehicle", "cueing", "sweep")),
         *(e for n, t in SOURCES.items() for e in _of_table(t, "vehicle.", f"source {n}")),
@@ -82,7 +88,9 @@ def keys(prefix: str = "") -> list[KeyEntry]:
         *_of_table(Platform, "platform."),
         *(KeyEntry(key, "", "", None, may, meaning) for key, may, meaning in _SWEEP),
     ]
-    return _merged(entry for entry in found if entry.key.startswith(prefix))
+    of = f"method {method}"
+    wanted = (entry for entry in found if not method or entry.of == of)
+    return _merged(entry for entry in wanted if entry.key.startswith(prefix))
 
 
 def _merged(entries: Iterable[KeyEntry]) -> list[KeyEntry]:

@@ -72,6 +72,20 @@ def inner_tables() -> list[type[ScenarioTable]]:
     return tables
 
 
+def test_keys_of_one_method(command: Command) -> None:
+    for method, table in TABLES.items():
+        listed = keys(method=method)
+        assert {entry.of for entry in listed} == {f"method {method}"}
+        assert names(table().model_dump(), "cueing.") <= {entry.key for entry in listed}
+        assert len({entry.key for entry in listed}) == len(listed)
+    shown = command("keys", "cueing.stage", "--method", "hedge").out
+    assert "cueing.stage.horizon_s = 5.0 [s] (method hedge)" in shown
+    assert "atlas-cueing keys --method hedge" in command("keys", "cueing.hedge").err
+    wrong = command("keys", "--method", "hedges")
+    assert (wrong.status, "--method hedges: allowed: " in wrong.err) == (2, True)
+    assert "no key of method hedge begins with 'x'" in command("keys", "x", "--method", "hedge").err
+
+
 def test_a_key_of_another_unit_and_a_word() -> None:
     (drag,) = keys("vehicle.drag_per_m")
     assert drag.unit == "1/m"

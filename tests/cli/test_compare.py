@@ -53,6 +53,21 @@ def test_bad_usage(command: Command, logs: tuple[str, str], tmp_path: Path) -> N
     assert command("compare", logs[0], "text.mcap").status == 1
 
 
+def test_a_log_given_again_is_compared_once(
+    command: Command, logs: tuple[str, str], tmp_path: Path
+) -> None:
+    (tmp_path / "link.mcap").symlink_to("hedge.mcap")
+    ended = command("compare", *logs, logs[0], "link.mcap")
+    assert ended.out == command("compare", *logs).out
+    assert ended.err.splitlines() == [
+        "hedge.mcap is given twice; it is compared once",
+        "link.mcap is given twice, also as hedge.mcap; it is compared once",
+    ]
+    ended = command("compare", logs[0], logs[0])
+    assert ended.status == 2
+    assert "compare needs at least two logs; got 1" in ended.err
+
+
 def test_findings_are_told(command: Command, logs: tuple[str, str]) -> None:
     command(
         "run",

@@ -27,7 +27,10 @@ def test_the_installed_command_is_this_one() -> None:
 
 
 def test_an_interrupt_while_loading_is_no_traceback() -> None:
-    """The signal comes with the first import of the command line's own modules."""
+    """The signal comes with the first import of the command line's own modules.
+
+    `live` in another test leaves Ctrl-C ignored, which a new process inherits.
+    """
     code = (
         "import sys, os, signal\n"
         "class Interrupting:\n"
@@ -37,7 +40,15 @@ def test_an_interrupt_while_loading_is_no_traceback() -> None:
         "from atlas_cueing.__main__ import main\n"
         "sys.exit(main())"
     )
-    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, check=False)
+    ended = subprocess.run(
+        [
+            sys.executable,
+            "-c",
+            "import signal; signal.signal(2, signal.default_int_handler)\n" + code,
+        ],
+        capture_output=True,
+        check=False,
+    )
     assert (ended.returncode, ended.stdout, ended.stderr) == (130, b"", b"")
 
 

@@ -23,6 +23,7 @@ def here(command: Command, tmp_path: Path) -> Path:
     (tmp_path / f"{NAME}.xml").write_bytes(own_scripts()["c1722"].read_bytes())
     (tmp_path / f"{NAME}-platform.toml").write_bytes(presets()["atlas-2.9m"].read_bytes())
     assert command("run", f"{NAME}.toml", "-o", f"{NAME}.mcap").status == 0
+    (tmp_path / f"{NAME}-twin.mcap").write_bytes((tmp_path / f"{NAME}.mcap").read_bytes())
     return tmp_path
 
 
@@ -45,7 +46,7 @@ def here(command: Command, tmp_path: Path) -> Path:
         ["run", "s.toml", "-o", "new.mcap", "--set", f"description={NAME}"],
         ["review", f"{NAME}.mcap"],
         ["review", f"{NAME}.mcap", "--html", f"{NAME}.html", "--replay", f"{NAME}-3d.html"],
-        ["compare", f"{NAME}.mcap", f"{NAME}.mcap", "--html", f"{NAME}.html"],
+        ["compare", f"{NAME}.mcap", f"{NAME}-twin.mcap", "--html", f"{NAME}.html"],
         ["recue", f"{NAME}.mcap", "-o", f"{NAME}-new.mcap", "--set", "cueing.method=force"],
         ["recue", f"{NAME}.mcap", "-o", "new.mcap", "--set", f"platform.file={NAME}-platform.toml"],
         ["recover", f"{NAME}.mcap", "-o", f"{NAME}-new.mcap"],

@@ -26,7 +26,7 @@ def log(command: Command, tmp_path: Path) -> Path:
         (["recover", "short.mcap", "-o", "link"], "log"),
         (["review", "short.mcap", "--html", "link"], "page"),
         (["review", "short.mcap", "--replay", "link"], "page"),
-        (["compare", "short.mcap", "short.mcap", "--html", "link"], "page"),
+        (["compare", "short.mcap", "twin.mcap", "--html", "link"], "page"),
         (["live", "s.toml", "--duration", "0.1", "-o", "link"], "log"),
     ],
     ids=lambda words: " ".join(words) if isinstance(words, list) else "",
@@ -36,6 +36,7 @@ def test_a_link_stays_and_leads_to_the_output(
 ) -> None:
     """Dangling at first, then to what --force may replace."""
     folder = log.parent
+    (folder / "twin.mcap").write_bytes(log.read_bytes())
     (folder / "there").mkdir()
     (folder / "link").symlink_to("there/real")
     for force in ([], ["--force"]):
