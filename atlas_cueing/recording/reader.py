@@ -25,6 +25,7 @@ from .builder import LogBuilder
 from .compression import unpack
 from .log import Log
 from .message_starts import MESSAGE_HEAD, Starts
+from .recorder import RUN_METADATA
 from .records import LooseMessage, MessageOffsets, RecordReader
 from .wire import RECORD_HEAD
 
@@ -62,6 +63,16 @@ def read_log(path: str | Path, max_bytes: int = MAX_LOG) -> Log:
         for record in RecordReader(stream).records():
             content.add(record)
         return content.log()
+
+
+def read_metadata(path: str | Path) -> dict[str, str]:
+    """Read the metadata of a run alone; empty where a log has none. Raises LogError."""
+    path, found = Path(path), dict[str, str]()
+    with errors_of_reading(path), path.open("rb") as stream:
+        for record in RecordReader(stream).records():
+            if isinstance(record, Metadata) and record.name == RUN_METADATA:
+                found = dict(record.metadata)
+    return found
 
 
 @contextmanager

@@ -1,17 +1,19 @@
 """Logs as vehicles."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from math import hypot, isfinite
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, TypeVar
 
 from ..errors import InputError, LogError
-from ..recording import Log, read_log
+from ..recording import Log, read_log, read_metadata
 from ..rotation import Quat, Vec3, continuous
 from ..signals import VehicleState
 from ..vehicles import Bounds, RecordedVehicle
 
+T = TypeVar("T")
 _UNIT = 1e-6  # how far the norm of a quaternion may be from 1; our own logs keep it to 1e-15
 # bytes unpacked; an hour at 120 Hz, and about as much again for the states
 MAX_RECORDING = 256 * 2**20
@@ -45,7 +47,7 @@ class RecordedFlight:
         `recorded_vehicle`: it is input, and nothing was written.
         """
         try:
-            return checked_vehicle(_read(self.log))
+            return checked_vehicle(_read(self.log, _within_bounds))
         except (InputError, LogError) as error:
             raise InputError(*(_named(line, self.log) for line in error.lines)) from error
 
@@ -67,7 +69,7 @@ class RecordedFlight:
 
     def told(self) -> dict[str, str]:
         """Return where an imported flight is from, and what of it was made and not measured."""
-        metadata = _read(self.log).metadata
+        metadata = _read(self.log, read_metadata)
         return {key: metadata[key] for key in TOLD if metadata.get(key)}
 
     def _measures(self) -> tuple[float, float]:
@@ -78,12 +80,16 @@ class RecordedFlight:
         return _measures(self, found.st_mtime_ns, found.st_size)
 
 
-def _read(path: Path) -> Log:
-    """Read a recording. Raises InputError: it is input, and nothing was written."""
+def _within_bounds(path: Path) -> Log:
+    return read_log(path, MAX_RECORDING)
+
+
+def _read(path: Path, read: Callable[[Path], T]) -> T:
+    """Read of a recording. Raises InputError: it is input, and nothing was written."""
     if not path.is_file():
         raise InputError(f"log {path}: {'not a regular file' if path.exists() else 'no such file'}")
     try:
-        return read_log(path, MAX_RECORDING)
+        return read(path)
     except LogError as error:
         raise InputError(*(_named(line, path) for line in error.lines)) from error
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from atlas_cueing.errors import InputError
-from atlas_cueing.recording import Log, read_log, write_vehicle_log
+from atlas_cueing.recording import Log, read_log, read_metadata, write_vehicle_log
 from atlas_cueing.run import run_scenario
 from atlas_cueing.scenario import RecordedFlight, load_scenario, recorded_vehicle
 from atlas_cueing.vehicles import Bounds
@@ -152,3 +152,19 @@ def test_a_recording_flies_as_it_did(path: Path, tmp_path: Path) -> None:
         assert np.array_equal(table.values, again.tables[topic].values), topic
     short = load_scenario(tmp_path / "s.toml", ["duration_s=0.2", "cueing.method=attitude"])
     assert run_scenario(short, tmp_path / "short.mcap").duration == pytest.approx(0.2, abs=0.01)
+
+
+def test_a_run_reads_its_recording_once(
+    path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read: list[Path] = []
+
+    def counted(log: Path, most: int) -> Log:
+        read.append(log)
+        return read_log(log, most)
+
+    monkeypatch.setattr("atlas_cueing.scenario.recorded.read_log", counted)
+    (tmp_path / "again.toml").write_text(RECORDED.format(path))
+    run_scenario(load_scenario(tmp_path / "again.toml"), tmp_path / "new.mcap")
+    assert read == [path]
+    assert read_metadata(path) == read_log(path).metadata
