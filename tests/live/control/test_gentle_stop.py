@@ -174,3 +174,13 @@ def test_near_the_end_of_the_travel_it_plans_a_harder_stop_and_keeps_to_it() -> 
     path, h = flown(limits, (travel - room, speed, 0.0))
     assert path[:, 0].max() <= travel
     assert 0.45 * jerk <= np.abs(np.diff(path[:, 2])).max() / h <= 0.95 * jerk
+
+
+@pytest.mark.parametrize("beyond", [-9e-7, -6e-7, 0.0, 2e-7, 4e-7])
+def test_it_ends_inside_the_travel_itself_where_smoothing_begins(beyond: float) -> None:
+    """And not merely inside of what the guard's room for rounding adds to it."""
+    speed, travel = 0.3, 0.5
+    limits = axis(1.0, 6.0, 60.0, travel)
+    soft, _ = flown(limits, (0.0, speed, 0.0))
+    path, _ = flown(limits, (travel * (1.0 + beyond) - soft[-1, 0], speed, 0.0))
+    assert path[-1, 0] <= travel * (1.0 - 4e-7)
