@@ -1,37 +1,14 @@
+"""Flights of scenarios, by the vehicle table."""
+
 import re
-from collections.abc import Mapping
 from html import unescape
-from itertools import product
 from math import nan
-from pathlib import Path
 
 import pytest
-from viewer.browsing import Opened, launched, needs_browser
 
 from atlas_cueing.batch.overview import overview
 
-METRIC, ANGLE = "force_rms_m_s2", "direction_rms_rad"
-SAME = {"scenario": "short", "vehicle": "c1722", "method": "blend", "platform": "atlas-2.9m"}
-ROW = {
-    **SAME,
-    "run": "short-c1722-blend-0123456789ab",
-    "result": "ok",
-    "log": "a.mcap",
-    METRIC: 1.25,
-    ANGLE: 0.5,
-}
-FAILED = {**SAME, "run": "b-2", "log": "", "result": "vehicle_failed", "reason": "it <fell>"}
-
-Row = Mapping[str, object]
-
-
-def page(
-    *rows: Row,
-    settings: tuple[str, ...] = (),
-    files: tuple[str, ...] = (),
-    metrics: tuple[str, ...] = (METRIC,),
-) -> str:
-    return overview(rows, settings, metrics, "mine & yours", files)
+from .overviews import ANGLE, FAILED, METRIC, ROW, SAME, page
 
 
 def tables(text: str) -> list[tuple[list[str], list[list[str]]]]:
@@ -246,72 +223,6 @@ def test_everything_is_escaped() -> None:
     assert "<b>" not in re.sub(r"<div[^>]*><b>", "", text)
     assert bad not in text
     assert "&lt;b&gt;&quot;&amp;1" in text
-
-
-@needs_browser
-def test_it_fits_the_window_and_a_click_sorts(tmp_path: Path) -> None:
-    """Also with six swept parameters and long names.
-
-    What is empty stays last, and the other table is left alone.
-    """
-    long = "a_rather_long_name_of_a_script_that_somebody_chose"
-    keys = tuple(f"cueing.some_longer_parameter_{i}_deg_s" for i in range(6))
-    metrics = (
-        METRIC,
-        ANGLE,
-        "rate_rms_rad_s",
-        "wheels_limited_share",
-        "stage_limited_share",
-        "attitude_rms_rad",
-    )
-    rows: list[Row] = [
-        {
-            **ROW,
-            "scenario": long,
-            "vehicle": long + str(a),
-            **dict.fromkeys(keys, a + b),
-            **dict.fromkeys(metrics, 10.0 * a + b),
-        }
-        for a, b in product((0.25, 1.0, 10.0), (0.125, 3.0))
-    ]
-    rows += [{**ROW, METRIC: nan, "violations": 3}, {**FAILED, "reason": long * 9}]
-    (tmp_path / "page.html").write_text(page(*rows, settings=keys, metrics=metrics))
-    with launched() as browser:
-        opened = Opened(browser, (tmp_path / "page.html").as_uri())
-        opened.page.set_viewport_size({"width": 1200, "height": 500})
-        assert opened.page.evaluate("document.documentElement.scrollWidth") <= 1200
-        column = (
-            "[...document.querySelectorAll('table')[0].tBodies[0].rows].map(r =>"
-            f" r.cells[{2 + len(keys)}].dataset.v)"
-        )
-        head = opened.page.locator(f"th[title^={METRIC}]")
-        assert head.get_attribute("aria-sort") == "ascending"
-        head.click()
-        assert opened.page.evaluate(column) == [
-            "103.0",
-            "100.125",
-            "13.0",
-            "10.125",
-            "5.5",
-            "2.625",
-            "",
-        ]
-        head.press("Enter")
-        assert opened.page.evaluate(column) == [
-            "2.625",
-            "5.5",
-            "10.125",
-            "13.0",
-            "100.125",
-            "103.0",
-            "",
-        ]
-        opened.page.evaluate("window.scrollTo(0, 300)")
-        assert opened.page.evaluate(
-            "document.querySelector('th').getBoundingClientRect().top"
-        ) == pytest.approx(0.0, abs=1.0)
-        assert opened.page.locator("td.reason").inner_text() == long * 9
-        opened.check_alone()
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Bad scenario and platform files, overrides, sweeps and paths."""
+"""Bad scenario and platform files, and overrides."""
 
 from .trying import BadInput, Content, Folder, Hole, Link, Pipe
 
@@ -21,7 +21,7 @@ airspeed_m_s = 60.0
 [platform]
 preset = "atlas-2.9m"
 """
-_INPUT = '[[vehicle.input]]\ntime_s = 0.1\nproperty = "{}"\nvalue = {}\n'
+INPUT = '[[vehicle.input]]\ntime_s = 0.1\nproperty = "{}"\nvalue = {}\n'
 _TRIM = "simulation/do_simple_trim"
 _HUGE = 10 * 2**30  # bytes
 _LOG = b"\x89MCAP0\r\n" + bytes(300_000)
@@ -49,22 +49,10 @@ def _with(line: str, at: str = "[vehicle]") -> str:
     return SCENARIO.replace(at, f"{line}\n{at}")
 
 
-def _swept(sweep: str, text: str = SCENARIO) -> dict[str, Content]:
-    return {"bad.toml": f"{text}\n[sweep]\n{sweep}"}
-
-
-def _batch(name: str, sweep: str, says: str = "", text: str = SCENARIO) -> BadInput:
-    return BadInput(name, ("batch", "bad.toml", "-o", "new"), _swept(sweep, text), says=says)
-
-
 _VALUES = {
     "duration": ("duration_s = 0.5", "duration_s = {}", "duration_s"),
     "rate": ('script = "c1722"', 'script = "c1722"\nrate_hz = {}', "vehicle.rate_hz"),
 }
-_ONE_PLACE = "".join(
-    f"platform.wheel.{i}.contact = [[1, 0, 0]]\nplatform.wheel.{i}.drive = [[0, 1, 0]]\n"
-    for i in (0, 1)
-)
 VALUES = [
     scenario(f"{key} {value[:20]}", SCENARIO.replace(old, new.format(value)), says=path)
     for key, (old, new, path) in _VALUES.items()
@@ -194,25 +182,25 @@ FLIGHTS = [
     ),
     scenario(
         "input that trims at once",
-        AIRCRAFT + _INPUT.format(_TRIM, 2).replace("0.1", "0.0"),
+        AIRCRAFT + INPUT.format(_TRIM, 2).replace("0.1", "0.0"),
         says=f"{_TRIM!r} = 2",
     ),
     scenario(
         "input that trims where none is",
-        AIRCRAFT + _INPUT.format(_TRIM, 2),
+        AIRCRAFT + INPUT.format(_TRIM, 2),
         status=1,
         says="vehicle failed at 0.1",
     ),
     scenario(
         "input that starts an engine that is none",
-        AIRCRAFT + _INPUT.format("propulsion/set-running", 1e9),
+        AIRCRAFT + INPUT.format("propulsion/set-running", 1e9),
         status=1,
         says="vehicle failed at 0.1",
     ),
     *[
         scenario(
             f"input {name[:30]} = {value}",
-            AIRCRAFT + _INPUT.format(name, value),
+            AIRCRAFT + INPUT.format(name, value),
             says="property" if value != "nan" else "value",
         )
         for name, value in [
@@ -271,51 +259,6 @@ OVERRIDES = [
         "duration_s=" + "9" * 400,
     )
 ]
-SWEEPS = [
-    _batch(
-        "1e9 runs of a grid",
-        "".join(f"cueing.k{i}=[1,2,3,4,5,6,7,8]\n" for i in range(10)),
-        "1073741824 runs",
-    ),
-    _batch("1e9 draws", "draws = 1000000000\nduration_s = { low = 1, high = 2 }", "sweep.draws"),
-    _batch(
-        "10,000 runs, the last one wrong",
-        "duration_s = [" + "1, " * 9999 + "-1]",
-        "duration_s = -1",
-    ),
-    _batch("10,000 wrong runs", "duration_s = [" + "-1, " * 10_000 + "]", "duration_s = -1"),
-    _batch(
-        "a range without end", "draws = 3\nduration_s = { low = 0, high = inf }", "sweep.duration_s"
-    ),
-    _batch(
-        "a range upside down", "draws = 3\nduration_s = { low = 2, high = 1 }", "sweep.duration_s"
-    ),
-    _batch("a pattern of 100 kB", f'vehicle.script = "{"*a" * 50_000}"', "pattern is too long"),
-    _batch("19,000 keys", "".join(f"k{i}=[1]\n" for i in range(19_000)), "keys"),
-    _batch(
-        "4,000 inputs in 2,000 runs",
-        "duration_s = [" + "1, " * 2000 + "]",
-        "keys",
-        AIRCRAFT + _INPUT.format("a", 1) * 4000,
-    ),
-    _batch(
-        "500 spheres on wheels in one place",
-        f"draws = 500\nplatform.sphere.radius_m = {{ low = 1, high = 2 }}\n{_ONE_PLACE}",
-        "slip",
-    ),
-    BadInput(
-        "a platform file of 250 kB wrong in its end, 9,000 runs",
-        ("batch", "bad.toml", "-o", "new"),
-        {
-            **_swept(
-                "duration_s = [" + "1, " * 9000 + "]",
-                SCENARIO.replace('preset = "atlas-2.9m"', 'file = "p.toml"'),
-            ),
-            "p.toml": "#\n" * 120_000 + "[",
-        },
-        says="p.toml: TOML",
-    ),
-]
 PLATFORMS = [
     BadInput(f"platform {name}: {says}", ("platform", name), {"p.toml": text}, status, says)
     for name, text, status, says in [
@@ -325,45 +268,4 @@ PLATFORMS = [
         ("p.toml", "[" * 100, 2, "nested"),
         ("p.toml", _LOG, 2, "is a log (MCAP)"),
     ]
-]
-PATHS = [
-    *[
-        BadInput(f"scenario: {name}", ("run", path), files)
-        for name, (path, files) in NO_FILES.items()
-    ],
-    *[
-        BadInput(f"batch: {name}", ("batch", path, "-o", "new"), files)
-        for name, (path, files) in NO_FILES.items()
-    ],
-    *[
-        BadInput(f"platform: {name}", ("platform", path), files)
-        for name, (path, files) in NO_FILES.items()
-    ],
-    *[
-        BadInput(
-            f"platform.file: {name}", ("run", "good.toml", "--set", f"platform.file={path}"), files
-        )
-        for name, (path, files) in NO_FILES.items()
-    ],
-    *[
-        BadInput(
-            f"vehicle.script: {name}",
-            ("run", "good.toml", "--trust-models", "--set", f"vehicle.script={path}"),
-            files,
-        )
-        for name, (path, files) in NO_FILES.items()
-    ],
-    *[
-        BadInput(
-            f"vehicle.log: {name}",
-            ("live", "bad.toml"),
-            {
-                "bad.toml": SCENARIO.replace(
-                    'script = "c1722"', f'source = "recording"\nlog = "{path}"'
-                ),
-                **files,
-            },
-        )
-        for name, (path, files) in NO_FILES.items()
-    ],
 ]

@@ -43,7 +43,7 @@ _OTHERS = {
 _MAPS = {
     "no format": (_MAP.replace('format = "csv"', ""), "format: missing"),
     "a table of another kind": (_MAP.replace("[rate]", "[[rate]]"), "rate: allowed: a table"),
-    "one mark for both": (_MAP + "[csv]\ndecimal = ','\ndelimiter = ','", "two different marks"),
+    "no decimal mark": (_MAP + "[csv]\ndecimal = ';'", "csv.decimal = ';'"),
     "a unit of something else": (_MAP.replace("rad/s", "kg"), "rate.unit = 'kg'"),
     "no TOML": ("format = ", "m.toml: "),
 }

@@ -13,52 +13,30 @@ from tempfile import TemporaryDirectory
 from typing import TypeAlias
 
 import numpy as np
-from flight_data import recorders
-from flight_data.truth import plain_csv, truth
 from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st
-from recording.layouts import LAYOUTS, rewritten
 
 from atlas_cueing.errors import AtlasError
 from atlas_cueing.flight_data import import_flight, known_maps, load_map
 from atlas_cueing.live.control.command import Command
 from atlas_cueing.live.output import setpoint
-from atlas_cueing.recording import McapRecorder, read_log
+from atlas_cueing.recording import read_log
 from atlas_cueing.recording.chunk import EncodedChunk
 from atlas_cueing.recording.container import Container
 from atlas_cueing.recording.salvage import rewrite, salvage
 from atlas_cueing.recording.schemas import STATUS, TF, schema_of
 from atlas_cueing.recording.wire import flat_template, record_template
-from atlas_cueing.rotation import IDENTITY, ZERO
+from atlas_cueing.rotation import ZERO
 from atlas_cueing.scenario import load_platform, load_variants, presets
-from atlas_cueing.signals import TOPICS, Cue, Motion, Tick, VehicleState, WheelSpeeds
+from atlas_cueing.signals import TOPICS
 from atlas_cueing.vehicles import Bounds
 from atlas_cueing.vehicles.flightgear import PACKET_BYTES, decode
+
+from .good_content import SCENARIO, good_log, logs_of_others, recordings
 
 Take: TypeAlias = Callable[[bytes, Path], object]
 
 LARGEST_CONTENT = 1 << 20  # bytes that a log may unpack to
-_SCENARIO = b"""
-name = "a"
-duration_s = 1.0
-[vehicle]
-aircraft = "f16"
-rate_hz = 60
-initial = { altitude_m = 100, airspeed_m_s = 5.0, trim = true }
-input = [ { time_s = 0.1, property = "fcs/elevator-cmd-norm", value = -0.2, ramp_s = 1 } ]
-[platform]
-preset = "atlas-1.5m"
-[cueing]
-method = "force"
-force_gain = [1, 0.5, 1]
-stage = { planner = "onset", travel_m = 0.5 }
-[recording]
-skip = ["/tf"]
-[sweep]
-cueing.method = ["blend", "force"]
-vehicle.rate_hz = { low = 50, high = 60 }
-draws = 2
-"""
 _WORDS = (
     b"=",
     b".",
@@ -179,34 +157,6 @@ def _edited(what: tuple[bytes, list[tuple[float, int, bytes]], float]) -> bytes:
     return bytes(data[: int(kept * len(data))])
 
 
-def _ticks(count: int) -> list[Tick]:
-    def tick(t: float) -> Tick:
-        motion = Motion(t, IDENTITY, ZERO, ZERO, ZERO, ZERO, ZERO, (0.0, 0.0))
-        cue = Cue(t, IDENTITY, ZERO, ZERO, ZERO, ZERO)
-        return Tick(
-            VehicleState(t, IDENTITY, ZERO, (0.0, 0.0, -9.8)),
-            cue,
-            motion,
-            WheelSpeeds(t, ZERO, ZERO),
-        )
-
-    return [tick(0.01 * k) for k in range(count)]
-
-
-def _log() -> bytes:
-    """A whole log of ours."""
-    with TemporaryDirectory() as folder:
-        path = Path(folder) / "x.mcap"
-        recorder = McapRecorder(
-            path, head_S=ZERO, metadata={}, attachments={"scenario.toml": _SCENARIO}, chunk_ticks=4
-        )
-        recorder.status(0.0, "running", "")
-        for tick in _ticks(12):
-            recorder.append(tick)
-        recorder.close("ok", "")
-        return path.read_bytes()
-
-
 def _crafted(what: tuple[bytes, bytes, bytes]) -> bytes:
     """A log with good checksums around a description and messages that may be anything."""
     flat, status, messages = what
@@ -221,17 +171,6 @@ def _crafted(what: tuple[bytes, bytes, bytes]) -> bytes:
     return stream.getvalue()
 
 
-def _of_others() -> list[bytes]:
-    """The good log as other programs write it."""
-    with TemporaryDirectory() as folder:
-        own, other = Path(folder) / "own.mcap", Path(folder) / "other.mcap"
-        own.write_bytes(_log())
-        return [
-            rewritten(own, other, LAYOUTS[name]).read_bytes()
-            for name in ("lz4", "no chunks, no checksums", "beside others")
-        ]
-
-
 _FELT, _STATUS = schema_of("/felt")[1], schema_of(STATUS)[1]
 _MESSAGES = (
     flat_template(1, len(TOPICS[-1].fields)).tobytes() * 2
@@ -239,8 +178,8 @@ _MESSAGES = (
     + record_template(3, b"")
 )
 _LOGS = st.one_of(
-    spoilt([_log()], (b"\x89MCAP0\r\n", b"zstd", b"\x05", b"\x06")),
-    spoilt(_of_others(), (b"lz4", b"\x03", b"\x04", b"\x05", b"\x06", b"json", b"protobuf")),
+    spoilt([good_log()], (b"\x89MCAP0\r\n", b"zstd", b"\x05", b"\x06")),
+    spoilt(logs_of_others(), (b"lz4", b"\x03", b"\x04", b"\x05", b"\x06", b"json", b"protobuf")),
     st.tuples(
         spoilt([_FELT], (b"time_s", b"\x01")),
         spoilt([_STATUS], (b"time_s", b"\x09", b"\x01")),
@@ -268,20 +207,6 @@ def _recover(data: bytes, folder: Path) -> None:
     rewrite(salvage(_file(data, folder, "x.mcap"), LARGEST_CONTENT), folder / "y.mcap", {})
 
 
-def _recorded() -> dict[str, bytes]:
-    """A good file of each format that `import` takes, by the name of its map."""
-    flown = truth(np.arange(150) / 100.0, 1.0)
-    with TemporaryDirectory() as name:
-        folder = Path(name)
-        bag = recorders.ros_bag(folder / "bag", flown, "MCAP")
-        return {
-            "csv": plain_csv(folder / "a.csv", flown).read_bytes(),
-            "px4": recorders.ulog(folder / "a.ulg", flown).read_bytes(),
-            "ardupilot": recorders.dataflash(folder / "a.bin", flown).read_bytes(),
-            "ros-imu": next(bag.glob("*.mcap")).read_bytes(),
-        }
-
-
 def _importing(map_name: str, ending: str) -> Take:
     def take(data: bytes, folder: Path) -> object:
         return import_flight(_file(data, folder, f"x.{ending}"), load_map(map_name), split=True)
@@ -289,7 +214,7 @@ def _importing(map_name: str, ending: str) -> Take:
     return take
 
 
-_RECORDED = _recorded()
+_RECORDED = recordings()
 _CELLS = (b",", b";", b"\n", b"\r", b'"', b"nan", b"1e999", b"-1", b"0,5", b"\xff", b"#", b" ")
 _FRAMES = (b"\xa3\x95", b"FMT", b"IMU", b"D", b"F", b"\xff\xff", b"\0\0", b"\x89MCAP0\r\n")
 _PACKETS = spoilt(
@@ -300,7 +225,7 @@ _POINTS = spoilt([_POINT], (b"ATSP", b"\0\0\0\0\0\0\xf8\x7f", b"\xff"))
 
 TARGETS: dict[str, Target] = {
     "scenario": Target(
-        spoilt([_SCENARIO], _WORDS), lambda data, at: load_variants(_file(data, at, "s.toml"))
+        spoilt([SCENARIO], _WORDS), lambda data, at: load_variants(_file(data, at, "s.toml"))
     ),
     "platform": Target(
         spoilt([path.read_bytes() for path in presets().values()], _WORDS),

@@ -15,7 +15,7 @@ import zstandard
 
 from atlas_cueing.cli import main
 
-from . import bad_files, bad_logs, bad_recordings, trying
+from . import bad_files, bad_logs, bad_outputs, bad_paths, bad_recordings, trying
 from .bad_files import SCENARIO
 from .bad_inputs import bad_inputs
 from .trying import BadInput, Ended, attempt, good_log, missing, objections, prepare
@@ -45,7 +45,7 @@ def at_most(seconds: int) -> Iterator[None]:
         signal.signal(signal.SIGALRM, before)
 
 
-HERE = [*bad_files.TEXTS, *bad_files.OVERRIDES, *bad_files.PLATFORMS, *bad_files.PATHS]
+HERE = [*bad_files.TEXTS, *bad_files.OVERRIDES, *bad_files.PLATFORMS, *bad_paths.PATHS]
 HERE += bad_recordings.RECORDINGS
 # tests/recording/test_endless.py looks at what has GBs
 HERE += [bad for bad in bad_logs.NOT_THERE if "GB" not in bad.name]
@@ -220,7 +220,7 @@ def test_what_cannot_be_tried_is_named(
 ) -> None:
     monkeypatch.setattr(trying, "_can_mount", lambda: False)
     _, out = table(monkeypatch, capsys, WELL, "disks", "overrides")
-    assert out.count("left out: needs leave to mount a tmpfs") == len(bad_logs.DISKS) > 0
+    assert out.count("left out: needs leave to mount a tmpfs") == len(bad_outputs.DISKS) > 0
 
 
 def test_an_unknown_kind_is_refused_by_name(

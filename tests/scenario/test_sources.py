@@ -14,7 +14,7 @@ from atlas_cueing.scenario import load_scenario
 from atlas_cueing.scenario.source_table import SourceTable
 from atlas_cueing.scenario.vehicle_table import DEFAULT_SOURCE, SOURCES
 
-from .test_vehicle_table import FLIGHTGEAR, RECORDING, RIGID_BODY, TRACK
+from .flights import FLIGHTGEAR, RECORDING, RIGID_BODY, TRACK
 from .texts import AIRCRAFT, SCRIPT, SIGNALS
 
 PACKETS = FLIGHTGEAR.replace('"flightgear"', '"packets"')

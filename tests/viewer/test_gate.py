@@ -1,7 +1,6 @@
 """Hostile clients of a view: none gets in or takes more than its share, and the page stays."""
 
 import gc
-import http.client
 import socket
 import struct
 from collections.abc import Callable, Iterator
@@ -10,40 +9,21 @@ from typing import Any
 
 import msgspec
 import pytest
-import viser
 from waiting import until
 from websockets.exceptions import ConnectionClosed, InvalidStatus
-from websockets.sync.client import ClientConnection, connect
-from websockets.typing import Subprotocol
+from websockets.sync.client import ClientConnection
 
 from atlas_cueing.viewer import gate
 from atlas_cueing.viewer.gate import LARGEST_MESSAGE, MOST_CLIENTS, MOST_CONNECTIONS, admits
 from atlas_cueing.viewer.server import close_server, open_server
 
-SPEAKS = f"viser-v{viser.__version__}"
+from .gate_clients import OUTSIDE, SPEAKS, answer_to, joined, moved, page, update
+
 HANDSHAKE = (
     "GET / HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\nConnection:"
     " Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version:"
     f" 13\r\nSec-WebSocket-Protocol: {SPEAKS}\r\n"
 )
-OUTSIDE = "/../../../../../../../../etc/passwd"
-
-
-def page(server: Any) -> int:
-    """Status of the page, which everybody may ask for."""
-    client = http.client.HTTPConnection("127.0.0.1", server.get_port(), timeout=20.0)
-    try:
-        client.request("GET", "/")
-        return client.getresponse().status
-    finally:
-        client.close()
-
-
-def joined(server: Any, path: str = "") -> ClientConnection:
-    address = f"ws://127.0.0.1:{server.get_port()}{path}"
-    return connect(
-        address, subprotocols=[Subprotocol(SPEAKS)], proxy=None, open_timeout=20.0, max_size=None
-    )
 
 
 def read_on(client: ClientConnection) -> None:
@@ -52,52 +32,10 @@ def read_on(client: ClientConnection) -> None:
         client.recv(timeout=20.0)
 
 
-def answer_to(server: Any, request: bytes) -> bytes:
-    """What comes back until the server hangs up."""
-    with socket.create_connection(("127.0.0.1", server.get_port()), timeout=20.0) as client:
-        client.sendall(request)
-        answer = b""
-        while piece := client.recv(65536):
-            answer += piece
-        return answer
-
-
 @contextmanager
 def many(server: Any, count: int, begin: Callable[[Any], Any]) -> Iterator[list[Any]]:
     with ExitStack() as stack:
         yield [stack.enter_context(begin(server)) for _ in range(count)]
-
-
-TOKEN = "t0ken-of_this_run"  # noqa: S105 - of a server of the test
-WRONG = ("/", "", "/t0ken", f"/{TOKEN}x", f"//{TOKEN}", "/index.html", f"/?{TOKEN}", "/\xff")
-
-
-@pytest.fixture
-def guarded() -> Iterator[Any]:
-    served = open_server(0, token=TOKEN)
-    yield served
-    close_server(served)
-
-
-def test_a_page_with_a_token_is_served_below_it_only(guarded: Any) -> None:
-    for path in (f"/{TOKEN}", f"/{TOKEN}/", f"/{TOKEN}?x=1", f"/{TOKEN}/index.html"):
-        answer = answer_to(guarded, f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n".encode())
-        assert answer.startswith(b"HTTP/1.1 200"), path
-    for path in WRONG:
-        request = f"GET {path or '/'} HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n".encode("latin-1")
-        assert not answer_to(guarded, request).startswith((b"HTTP/1.1 200", b"HTTP/1.1 404")), path
-    assert page(guarded) == 403
-    outside = f"GET /{TOKEN}{OUTSIDE} HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n".encode()
-    assert answer_to(guarded, outside).startswith(b"HTTP/1.1 404")
-
-
-def test_a_program_without_the_token_presses_nothing(guarded: Any) -> None:
-    slider = guarded.gui.add_slider("slider", 0.0, 1.0, 0.1, 0.5)
-    with pytest.raises(InvalidStatus, match="HTTP 403"):
-        joined(guarded)
-    with joined(guarded, f"/{TOKEN}") as ours:
-        ours.send(moved(slider, 0.9))
-        until(lambda: slider.value == 0.9)
 
 
 @pytest.mark.parametrize(
@@ -130,17 +68,6 @@ def test_under_another_name_nothing_is_served(server: Any, host: str) -> None:
     )
     assert answer_to(server, (HANDSHAKE.format(host=host) + "\r\n").encode()).startswith(
         b"HTTP/1.1 403"
-    )
-
-
-def moved(slider: Any, to: object) -> bytes:
-    """What a page sends when somebody moves a slider."""
-    return update(slider, {"value": to})
-
-
-def update(slider: Any, updates: object) -> bytes:
-    return msgspec.msgpack.encode(
-        {"type": "GuiUpdateMessage", "uuid": slider._impl.uuid, "updates": updates}
     )
 
 
