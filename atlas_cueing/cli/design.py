@@ -155,7 +155,8 @@ def design_command(
     ridden, names = read_flights(model, logs)
     problem = Problem(begun, start, searched, goals, ridden)
     run.check_same(design_stamp(problem, asked, searches, seed))
-    say(f"{len(names)} rides with {len(ridden)} ticks; searching {', '.join(searched)}")
+    rides = f"{len(names)} ride{'s' if len(names) > 1 else ''}"
+    say(f"{rides} with {len(ridden)} ticks; searching {', '.join(searched)}")
     workers = jobs or len(os.sched_getaffinity(0))
     front = run.search(problem, asked, searches, seed, workers, cluster)
     typer.echo(run.finish(front, names, as_json=as_json))
