@@ -145,6 +145,9 @@ def test_gear_and_radius(command: Command, ridden: Path) -> None:
     assert designed.drive.gear != 10.0
     assert designed.drive.torque_n_m == pytest.approx(60.0 * (designed.drive.gear or 0.0))
     assert designed.wheel[0].radius_m != 0.15
+    flown = ("--set", "platform.file=out/platform.toml", "-o", "on_it.mcap", "--json")
+    ended = command("recue", "rides/force.mcap", *flown)
+    assert json.loads(ended.out)["result"] == "ok"
 
 
 def test_a_gear_needs_a_motor(command: Command, ridden: Path) -> None:
