@@ -8,6 +8,7 @@ import stat
 import tomllib
 from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterator
+from os.path import isfile
 from pathlib import Path
 from typing import Any
 
@@ -87,7 +88,8 @@ def _read(path: Path) -> str:
             content = file.read(LARGEST_FILE + 1)
     except (OSError, ValueError) as error:  # ValueError: a NUL in the path
         reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise _mistake(str(path), "file", f"cannot be read: {reason}") from None
+        hint = _meant(path) if isinstance(error, FileNotFoundError) else ""
+        raise _mistake(str(path), "file", f"cannot be read: {reason}{hint}") from None
     if content.startswith(_LOG):
         raise _mistake(
             str(path),
@@ -102,6 +104,14 @@ def _read(path: Path) -> str:
         return content.removeprefix(BOM_UTF8).decode()  # Windows' editors put the mark there
     except UnicodeDecodeError as error:
         raise _mistake(str(path), "file", f"not UTF-8 text: byte {error.start}") from None
+
+
+def _meant(path: Path) -> str:
+    """Ask whether a file was meant whose name lacks its ending, or the folder of the examples."""
+    places = (path.parent, path.parent / "scenarios")
+    names = (path.name, f"{path.name}.toml")
+    near = [place / name for place in places for name in names if isfile(place / name)]
+    return f"; did you mean {near[0]}?" if near else ""
 
 
 def _check_shape(text: str, file: str) -> None:

@@ -16,6 +16,8 @@ from atlas_cueing.scenario.reading import (
     read_toml,
 )
 
+from .texts import SCRIPT
+
 BRACKETS = "[" * 50
 DOTS = "." * 50
 
@@ -110,3 +112,15 @@ def test_utf_16_is_named(tmp_path: Path, encoding: str) -> None:
     )
     with pytest.raises(ScenarioError, match="is UTF-16 text, allowed: UTF-8; save it anew"):
         read_toml(tmp_path / "f.toml")
+
+
+def test_a_name_without_its_ending_or_folder_is_asked_about(tmp_path: Path) -> None:
+    (tmp_path / "scenarios").mkdir()
+    (tmp_path / "scenarios" / "rolls.toml").write_text(SCRIPT)
+    meant = f"; did you mean {tmp_path / 'scenarios' / 'rolls.toml'}?"
+    for name in ("rolls", "rolls.toml"):
+        assert meant in refusal(tmp_path / name)
+    (tmp_path / "loop.toml").write_text(SCRIPT)
+    assert f"did you mean {tmp_path / 'loop.toml'}?" in refusal(tmp_path / "loop")
+    for name in ("loops", "x" * 253):
+        assert "did you mean" not in refusal(tmp_path / name)
