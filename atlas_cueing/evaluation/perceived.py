@@ -74,14 +74,15 @@ class Perceived:
 
     def _perceive(self, means: Array) -> None:
         """Take the observers through the steps `means` (n, 12): f and w of pilot and of rider."""
-        motions = means[:, :6].tolist(), means[:, 6:].tolist()
-        perceived: list[list[list[float]]] = [[], []]
+        motions = [means[:, :6].ravel().tolist(), means[:, 6:].ravel().tolist()]
+        perceived: list[list[float]] = [[], []]
         if self._heads is None:  # the first step only starts them
-            self._heads = self._started(motions[0].pop(0)), self._started(motions[1].pop(0))
-            perceived = [[[*head.up, *head.rate]] for head in self._heads]
+            self._heads = self._started(motions[0][:6]), self._started(motions[1][:6])
+            perceived = [[*head.up, *head.rate] for head in self._heads]
+            motions = [motion[6:] for motion in motions]
         for head, motion, found in zip(self._heads, motions, perceived, strict=True):
             found += head.follow(motion)
-        pilot, rider = np.array(perceived)
+        pilot, rider = (np.reshape(found, (-1, 6)) for found in perceived)
         apart = distance(pilot[:, :3], rider[:, :3])
         together = distance(pilot[:, :3], -rider[:, :3])
         self._tilt.add(2.0 * np.arctan2(apart, together))

@@ -1,9 +1,7 @@
 """Encodes a block of ticks as one MCAP chunk with its index, without a loop over messages."""
 
-import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -49,6 +47,28 @@ class Extra(NamedTuple):
     channel: int
     log_time: int
     record: bytes
+
+
+class _Extras(NamedTuple):
+    """Messages as `Extra` has them, column by column (n,), in the order of the file."""
+
+    ticks: NDArray[np.int64]
+    channels: NDArray[np.int64]
+    log_times: Times
+    records: list[bytes]
+
+    def with_statuses(self, statuses: Sequence[Extra]) -> "_Extras":
+        """The same with changes of state among them, by place and log time."""
+        ticks, channels, log_times, records = zip(*statuses, strict=True)
+        places = np.concatenate([self.ticks, np.array(ticks, np.int64)])
+        times = np.concatenate([self.log_times, np.array(log_times, np.uint64)])
+        order, every = np.lexsort((times, places)), [*self.records, *records]
+        return _Extras(
+            places[order],
+            np.concatenate([self.channels, np.array(channels, np.int64)])[order],
+            times[order],
+            [every[k] for k in order.tolist()],
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +135,7 @@ class ChunkEncoder:
         records = self._encode_ticks(ticks, times)
         extras = self._transforms(ticks, times)
         if statuses:
-            extras = sorted([*extras, *statuses], key=itemgetter(0, 2))  # by place and log time
+            extras = extras.with_statuses(statuses)
         return EncodedChunk(_merge(records, extras), self._index(records, times, extras))
 
     def _encode_ticks(self, ticks: Array, times: Times) -> Records:
@@ -128,53 +148,39 @@ class ChunkEncoder:
             put(records[name], ticks[:, columns])
         return records
 
-    def _transforms(self, ticks: Array, times: Times) -> list[Extra]:
+    def _transforms(self, ticks: Array, times: Times) -> _Extras:
         """Make a /tf message after each tick that is the first one in its sixtieth of a second."""
-        if self._tf_channel is None or not len(ticks):
-            return []
-        # a tick due at k/60 s may be a rounding error early
-        slots = np.floor(ticks[:, 0] * RATE_HZ + 1e-6)
-        due = np.flatnonzero(np.diff(slots, prepend=self._tf_slot))
-        self._tf_slot = float(slots[-1])
+        due = self._due(ticks[:, 0])
         records = repeat(self._tf_template, len(due))
         put_transforms(records, times[due], ticks[due, _Q], ticks[due, _P])
         data, size = records.tobytes(), records.itemsize
         each = [data[start : start + size] for start in range(0, len(data), size)]
-        return list(
-            map(
-                Extra,
-                (due + 1).tolist(),
-                itertools.repeat(self._tf_channel),
-                times[due].tolist(),
-                each,
-            )
-        )
+        return _Extras(due + 1, np.full(len(due), self._tf_channel or 0), times[due], each)
 
-    def _index(
-        self, ticks: Records, times: Times, extras: list[Extra]
-    ) -> dict[int, NDArray[np.uint64]]:
+    def _due(self, times: Array) -> NDArray[np.int64]:
+        """Return which ticks, of these times (s), have a /tf message after them."""
+        if self._tf_channel is None or not len(times):
+            return np.empty(0, np.int64)
+        # a tick due at k/60 s may be a rounding error early
+        slots = np.floor(times * RATE_HZ + 1e-6)
+        due = np.flatnonzero(np.diff(slots, prepend=self._tf_slot))
+        self._tf_slot = float(slots[-1])
+        return due
+
+    def _index(self, ticks: Records, times: Times, extras: _Extras) -> dict[int, Times]:
         """Return log time and offset of each message, by channel.
 
         A tick is moved back by the extra messages before it, and they by the ticks before them.
         """
-        places, channels, log_times, records = (
-            zip(*extras, strict=True) if extras else ((), (), (), ())
-        )
-        sizes = np.cumsum([0, *map(len, records)])
-        before, of_channel = np.array(places, dtype=np.int64), np.array(channels, dtype=np.int64)
-        bases = (
-            np.arange(len(ticks)) * ticks.itemsize
-            + sizes[np.searchsorted(before, np.arange(len(ticks)), side="right")]
-        )
+        sizes = np.cumsum([0, *map(len, extras.records)])
+        count = np.arange(len(ticks))
+        bases = count * ticks.itemsize + sizes[np.searchsorted(extras.ticks, count, side="right")]
         index = {}
         for name, offset in self._offsets.items() if len(ticks) else ():
-            index[self._channels[name]] = np.stack(
-                [times, (bases + offset).astype(np.uint64)], axis=1
-            )
-        starts = (before * ticks.itemsize + sizes[:-1]).astype(np.uint64)
-        entries = np.stack([np.array(log_times, dtype=np.uint64), starts], axis=1)
-        for channel in sorted(set(channels)):
-            index[channel] = entries[of_channel == channel]
+            index[self._channels[name]] = _entries(times, bases + offset)
+        entries = _entries(extras.log_times, extras.ticks * ticks.itemsize + sizes[:-1])
+        for channel in np.unique(extras.channels).tolist():
+            index[channel] = entries[extras.channels == channel]
         return index
 
 
@@ -203,12 +209,16 @@ def felt_columns(rows: Array, head_S: Vec3) -> Array:
     return np.column_stack([rows[:, _MOTION], f, w, error])
 
 
-def _merge(ticks: Records, extras: list[Extra]) -> bytes:
+def _entries(times: Times, offsets: NDArray[np.int64]) -> Times:
+    """Return entries (n, 2) of an index."""
+    return np.stack([times, offsets.astype(np.uint64)], axis=1)
+
+
+def _merge(ticks: Records, extras: _Extras) -> bytes:
     """Return the bytes of the ticks with each extra record at its place."""
     data, start = ticks.view(np.uint8).data, 0
     pieces: list[bytes | memoryview] = []
-    for place, _, _, record in extras:
-        end = place * ticks.itemsize
+    for end, record in zip((extras.ticks * ticks.itemsize).tolist(), extras.records, strict=True):
         pieces += [data[start:end], record]
         start = end
     return b"".join([*pieces, data[start:]])

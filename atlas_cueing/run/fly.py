@@ -2,30 +2,24 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import degrees, radians
 from pathlib import Path
 from time import perf_counter
-from typing import Final, TypeAlias
+from typing import TypeAlias
 
 from ..errors import MethodError, OutputError, VehicleError
 from ..pipeline import Pipeline
 from ..scenario import Scenario
-from ..signals import Sink, Tick, Vehicle, VehicleState, attitude_jump
+from ..signals import Vehicle
 from .build import prepare
 from .evaluate import Evaluator
 from .open_recorder import open_recorder
 from .open_vehicle import open_vehicle
 from .result import METHOD_FAILED, RunResult
+from .run_log import Progress, RunLog
 from .stop_request import StopRequest
 from .ticks import ticks
 
-Progress: TypeAlias = Callable[[float], None]  # called now and then with the flight time, s
 Open: TypeAlias = Callable[[Scenario], Vehicle]  # what `open_vehicle` does, or in its place
-
-# Attitude and body rates of one step agree to dt^2/2 times the angular acceleration: 0.04 deg at
-# 120 Hz and 20 rad/s^2. From here on (assumed) a difference is noted in /status as a jump; at 10 Hz
-# a hard manoeuvre may pass for one.
-JUMP: Final = radians(0.5)
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +60,7 @@ def run_scenario(
     flight = _prepared(scenario, opened or open_vehicle)
     evaluator = Evaluator(scenario.platform)
     recorder = open_recorder(scenario, log, observer=evaluator.add)
-    sink = _RunLog(recorder, progress or (lambda _: None))
+    sink = RunLog(recorder, progress or (lambda _: None))
     try:
         outcome = _record(flight, sink)
     except OutputError as error:
@@ -90,7 +84,7 @@ def _prepared(scenario: Scenario, opened: Open) -> _Ready | _Outcome:
     return prepare(scenario, vehicle)
 
 
-def _record(flight: _Ready | _Outcome, sink: "_RunLog") -> _Outcome:
+def _record(flight: _Ready | _Outcome, sink: RunLog) -> _Outcome:
     """Fly, and finish the log whatever happens. Raises OutputError, and what is unexpected."""
     sink.status("running", "")
     try:
@@ -98,13 +92,13 @@ def _record(flight: _Ready | _Outcome, sink: "_RunLog") -> _Outcome:
     except OutputError:
         raise
     except BaseException as error:
-        sink.finish(_Outcome("failed", f"{type(error).__name__}: {error}"))
+        sink.finish("failed", f"{type(error).__name__}: {error}")
         raise
-    sink.finish(outcome)
+    sink.finish(outcome.result, outcome.reason)
     return outcome
 
 
-def _fly(vehicle: Vehicle, pipeline: Pipeline, sink: "_RunLog") -> _Outcome:
+def _fly(vehicle: Vehicle, pipeline: Pipeline, sink: RunLog) -> _Outcome:
     """Fly into the log, and return how that ended."""
     try:
         with StopRequest() as stop:
@@ -120,46 +114,3 @@ def _fly(vehicle: Vehicle, pipeline: Pipeline, sink: "_RunLog") -> _Outcome:
     if interrupted:
         return _Outcome("interrupted", f"asked to stop at {sink.time:.3f} s")
     return _Outcome()
-
-
-class _RunLog:
-    """The log of a run, with its jumps of attitude noted.
-
-    ticks: number of ticks recorded. time: of the last one, s.
-    """
-
-    def __init__(self, sink: Sink, progress: Progress) -> None:
-        self.ticks, self.time = 0, 0.0
-        self._sink = sink
-        self._progress = progress
-        self._before: VehicleState | None = None
-        self._jumping = False
-
-    def add(self, block: list[Tick]) -> None:
-        """Record a block of ticks."""
-        for tick in block:
-            self._sink.append(tick)
-            self.ticks += 1
-            self.time = tick.vehicle.time
-            self._note_jump(tick.vehicle)
-        self._progress(self.time)
-
-    def status(self, state: str, reason: str) -> None:
-        """Record a change of state at the last tick."""
-        self._sink.status(self.time, state, reason)
-
-    def finish(self, outcome: _Outcome) -> None:
-        """Finish the log with the outcome."""
-        self.status("done" if outcome.result == "ok" else outcome.result, outcome.reason)
-        self._sink.close(outcome.result, outcome.reason)
-
-    def _note_jump(self, now: VehicleState) -> None:
-        jump = attitude_jump(self._before, now) if self._before else 0.0
-        self._before = now
-        if (jump >= JUMP) != self._jumping:
-            self._jumping = not self._jumping
-            reason = (
-                f"attitude jumped by {degrees(jump):.3g} deg that the body rates do not explain"
-            )
-            state = ("attitude_jump", reason) if self._jumping else ("running", "")
-            self.status(*state)

@@ -1,5 +1,7 @@
 """The loop from the vehicle through the pipeline."""
 
+# mypyc: runs every tick
+
 from collections.abc import Callable, Iterator
 from typing import Final
 

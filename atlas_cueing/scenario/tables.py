@@ -17,7 +17,9 @@ _MOST_WHEELS = 24
 class ScenarioTable(BaseModel):
     """A TOML table: no unknown keys, no conversions except integer to float, immutable."""
 
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
+    model_config = ConfigDict(
+        extra="forbid", strict=True, frozen=True, allow_inf_nan=False, defer_build=True
+    )
 
 
 def refuse(allowed: str) -> PydanticCustomError:

@@ -2,14 +2,17 @@
 
 # mypyc: runs every tick
 
+from collections.abc import Callable
 from math import atan2, cos, pi, sin
-from typing import Final
+from typing import Final, TypeAlias
 from warnings import catch_warnings, simplefilter
 
 import jsbsim
 
 from ...rotation import IDENTITY, Quat, continuous, from_euler
 from ...signals import STANDARD_GRAVITY, VehicleState
+
+Reader: TypeAlias = Callable[[], float]  # of one property
 
 METRES_PER_FOOT: Final = 0.3048  # the international foot, exactly
 EARTH_RATE: Final = 7.292115e-5  # rad/s, WGS 84
@@ -18,6 +21,8 @@ _NEAR_VERTICAL: Final = 0.5 * pi - 1e-6  # rad of pitch
 
 class Readings:
     """Reads states; property nodes are looked up once, since a look-up costs six times a reading.
+
+    So are their methods.
 
     Attitude comes from the Euler angles, a tenth of the cost of JSBSim's matrix. They differ from
     it by 6e-16 rad over the distance of the pitch from +-90 deg, and closer than 1e-8 rad (a rocket
@@ -33,52 +38,42 @@ class Readings:
     """
 
     def __init__(self, fdm: jsbsim.FGFDMExec) -> None:
-        self._psi, self._theta, self._phi = _nodes(fdm, "attitude/%s-rad", "psi", "theta", "phi")
-        self._p, self._q, self._r = _nodes(fdm, "velocities/%s-rad_sec", "p", "q", "r")
-        self._x, self._y, self._z = _nodes(fdm, "accelerations/a-pilot-%s-ft_sec2", "x", "y", "z")
-        self._gravity, self._height = _nodes(
+        self._psi, self._theta, self._phi = _readers(fdm, "attitude/%s-rad", "psi", "theta", "phi")
+        self._p, self._q, self._r = _readers(fdm, "velocities/%s-rad_sec", "p", "q", "r")
+        self._x, self._y, self._z = _readers(fdm, "accelerations/a-pilot-%s-ft_sec2", "x", "y", "z")
+        self._gravity, self._height = _readers(
             fdm, "%s", "accelerations/gravity-ft_sec2", "position/h-agl-ft"
         )
-        distance, latitude = _nodes(fdm, "position/%s", "radius-to-vehicle-ft", "lat-gc-rad")
+        distance, latitude = _readers(fdm, "position/%s", "radius-to-vehicle-ft", "lat-gc-rad")
         # ft/s^2
-        self._centrifugal = (
-            EARTH_RATE**2 * distance.get_double_value() * cos(latitude.get_double_value()) ** 2
-        )
+        self._centrifugal = EARTH_RATE**2 * distance() * cos(latitude()) ** 2
         self._propagate = fdm.get_propagate()
         self._q_NB: Quat = IDENTITY
 
     def state(self, time: float) -> VehicleState:
         """The present state, called `time` (s); raises ValueError when an angle is infinite."""
-        psi, theta, phi = (
-            self._psi.get_double_value(),
-            self._theta.get_double_value(),
-            self._phi.get_double_value(),
-        )
+        psi, theta, phi = self._psi(), self._theta(), self._phi()
         if abs(theta) > _NEAR_VERTICAL:
             psi, theta = _heading_and_pitch(self._propagate, phi)
         self._q_NB = continuous(from_euler(psi, theta, phi), self._q_NB)
         # f / g0 = a_pilot / apparent gravity, both of the right hand in ft/s^2
-        k = STANDARD_GRAVITY / (self._gravity.get_double_value() - self._centrifugal)
+        k = STANDARD_GRAVITY / (self._gravity() - self._centrifugal)
         return VehicleState(
             time,
             self._q_NB,
-            (self._p.get_double_value(), self._q.get_double_value(), self._r.get_double_value()),
-            (
-                k * self._x.get_double_value(),
-                k * self._y.get_double_value(),
-                k * self._z.get_double_value(),
-            ),
+            (self._p(), self._q(), self._r()),
+            (k * self._x(), k * self._y(), k * self._z()),
         )
 
     def height(self) -> float:
         """Height of the centre of gravity above ground, m."""
-        return METRES_PER_FOOT * self._height.get_double_value()
+        return METRES_PER_FOOT * self._height()
 
 
-def _nodes(fdm: jsbsim.FGFDMExec, pattern: str, *names: str) -> list[jsbsim.FGPropertyNode]:
+def _readers(fdm: jsbsim.FGFDMExec, pattern: str, *names: str) -> list[Reader]:
     manager = fdm.get_property_manager()
     nodes = [manager.get_node(pattern % name) for name in names]
-    return [node for node in nodes if node is not None]
+    return [node.get_double_value for node in nodes if node is not None]
 
 
 def _heading_and_pitch(propagate: jsbsim.FGPropagate, phi: float) -> tuple[float, float]:

@@ -188,9 +188,7 @@ def test_an_elevator_that_is_not_a_number_fails_one_step_later(tmp_path: Path) -
 
 def test_an_infinite_angle_is_a_failed_vehicle(monkeypatch: pytest.MonkeyPatch) -> None:
     vehicle = JsbsimVehicle(cessna())
-    phi = jsbsim.FGPropertyManager().get_node("phi", create=True)
-    phi.set_double_value(inf)
-    monkeypatch.setattr(vehicle._readings, "_phi", phi)
+    monkeypatch.setattr(vehicle._readings, "_phi", lambda: inf)
     assert "not finite" in flown_to_failure(vehicle).reason
 
 
