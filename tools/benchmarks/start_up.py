@@ -10,7 +10,7 @@ from .flights import script_file
 from .rows import Asked, Row
 from .timing import fresh, interleaved
 
-HELP, RUN = Asked(0.3), Asked(0.8)  # s of wall time
+HELP, RUN = Asked(0.3), Asked(0.35)  # s of wall time
 _PYTHON = (sys.executable, "-c")
 
 

@@ -1,10 +1,9 @@
 """A whole run over the bare loop of JSBSim's own script.
 
 Bare: load_script, run_ic, and run() as often as the run has steps; without the model's own output
-    files, which a run does not
-write either. Whole: `run_scenario`, from the loaded scenario to the finished and evaluated log. The
-time of a tick is the difference of a long and a short flight over their ticks, so that start-up is
-not in it; that is what is left of the short one.
+files, which a run does not write either. Whole: `run_scenario`, from the loaded scenario to the
+finished and evaluated log. The time of a tick is the difference of a long and a short flight over
+their ticks, so that start-up is not in it; that is what is left of the short one.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -66,11 +65,11 @@ class Bare:
 
 def measure(bench: Bench) -> Iterator[Row]:
     """Ratio, wall times and start-up of each script; the ratio of the other kinds of run."""
-    for script in SCRIPTS:
+    for script, share in SCRIPTS.items():
         bench.say(f"run: {script}, {bench.effort.rounds} rounds")
+        length = max(share * bench.effort.flight, 2.0 * SHORT)
         long, short = (
-            script_scenario(bench.folder, script, duration)
-            for duration in (bench.effort.flight, SHORT)
+            script_scenario(bench.folder, script, duration) for duration in (length, SHORT)
         )
         yield from _rows(bench, script, script, long, short)
     for method, loads in OTHERS:
