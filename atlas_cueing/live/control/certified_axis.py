@@ -106,11 +106,15 @@ class AxisLimits:
             c + 0.5 * self._moment(h, m, h - skew),
         )
 
-    def stop(self, p: float, v: float, a: float) -> "CertifiedStop":
-        """Return the stop from position p, speed v and acceleration a: the shortest, or soft."""
+    def stop(self, p: float, v: float, a: float, share: float = 1.0) -> "CertifiedStop":
+        """Return the stop from position p, speed v and acceleration a: the shortest, or soft.
+
+        share: of the jerk, that it takes.
+        """
+        jerk = share * self.jerk
         if self.soft:
-            return SoftStop(p, v, a, self._braking, self.jerk)
-        return CertifiedStop(p, v, a, self.acceleration, self.jerk)
+            return SoftStop(p, v, a, self._braking, jerk)
+        return CertifiedStop(p, v, a, self.acceleration, jerk)
 
     def _moment(self, h: float, m: float, d: float) -> float:
         """Return f(d) of the guard's text."""

@@ -41,8 +41,10 @@ class GentleStop:
         self._axes, self._states, self._dt = axes, list(states), dt
         self._ticks, self._begun = 0, [0] * len(axes)  # tick at which each stop was planned
         self._soft = any(axis.soft for axis in axes)
-        if self._soft:  # the one that keeps traction, the same as the guard's
-            self._stops = [axis.stop(*state) for axis, state in zip(axes, states, strict=True)]
+        if self._soft:  # the one that keeps traction: the guard's, but for room for rounding
+            self._stops = [
+                axis.stop(p, v, a, SHARES[-1]) for axis, (p, v, a) in zip(axes, states, strict=True)
+            ]
             return
         stops = [_softest(axis, state) for axis, state in zip(axes, states, strict=True)]
         last = max(stop.duration for _, stop in stops[:3])

@@ -184,3 +184,22 @@ def test_it_ends_inside_the_travel_itself_where_smoothing_begins(beyond: float) 
     soft, _ = flown(limits, (0.0, speed, 0.0))
     path, _ = flown(limits, (travel * (1.0 + beyond) - soft[-1, 0], speed, 0.0))
     assert path[-1, 0] <= travel * (1.0 - 4e-7)
+
+
+@pytest.mark.parametrize("h", [1e-3, 2e-3, 4e-3])
+@pytest.mark.parametrize("limits", [(31.0, 60.0, 600.0, inf), (0.5, 1.0, 50.0, 0.3)])
+def test_where_traction_is_kept_the_guard_lets_it_pass_tick_by_tick(
+    h: float, limits: tuple[float, float, float, float]
+) -> None:
+    """Its jerk is not the guard's own limit, which rounding would pass at every other tick."""
+    speed, acceleration, _, _ = limits
+    guarded = AxisLimits("axis ", h, *limits, stop_share=0.5)
+    for v, a in ((0.1, 0.0), (0.3, 0.4), (-0.7, 0.2), (0.5, -0.8), (0.001, 0.003)):
+        before = 0.0, v * speed, a * acceleration
+        stop = GentleStop([guarded] * 6, [before] * 6, h)
+        while not stop.arrived:
+            now = stop.next()[0]
+            checks = guarded.checks(h, *before[1:], *now[1:])
+            checks += guarded.place_checks(h, *before, *now)
+            assert all(low <= value <= high for _, value, low, high in checks), checks
+            before = now
