@@ -6,9 +6,7 @@ stderr.
 """
 
 import errno
-import gc
 import logging
-import os
 import signal
 import sys
 import traceback
@@ -136,7 +134,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     Signals that come after the process's own command has ended do not change its status.
     """
-    _speed_up_start()
     with safe_streams():
         status = _status(list(sys.argv[1:] if arguments is None else arguments))
         if arguments is None:
@@ -169,14 +166,6 @@ def _status(texts: list[str]) -> int:
         # A user must never see a traceback that was not asked for
         return _unexpected(error, "--debug" in texts)
     return 0
-
-
-def _speed_up_start() -> None:
-    """Save time at the start: no threads of OpenBLAS, fewer garbage collections."""
-    # matrices of three columns gain nothing from a thread for each core
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    # a collection amid the imports takes 35 ms and finds nothing
-    gc.set_threshold(50_000, *gc.get_threshold()[1:])
 
 
 def _unexpected(error: Exception, debug: bool) -> int:

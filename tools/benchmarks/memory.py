@@ -16,8 +16,8 @@ _HOUR = 3600.0
 _CODE = """
 import resource, sys
 from pathlib import Path
-from atlas_cueing.cli import main
-status = main(sys.argv[1:])
+from atlas_cueing.__main__ import main
+status = main()
 proc = Path("/proc/self/status")
 unit = 1 if sys.platform == "darwin" else 1024
 peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit

@@ -16,7 +16,7 @@ from statistics import median
 from time import perf_counter, perf_counter_ns, process_time
 from typing import Any, Self
 
-COMMAND = (sys.executable, "-c", "import sys; from atlas_cueing.cli import main; sys.exit(main())")
+COMMAND = (sys.executable, "-m", "atlas_cueing")
 
 
 @dataclass(frozen=True, slots=True)
