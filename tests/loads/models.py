@@ -34,7 +34,9 @@ def unit(v: Any) -> tuple[float, float, float]:
 def model_of(case: dict[str, Any]) -> LoadModel:
     wheels = [
         OmniWheel.along(
-            w["contact"], w["drive"], w["radius_m"] * cos(radians(w.get("roller_deg", 0.0)))
+            tuple(w["contact"]),
+            tuple(w["drive"]),
+            w["radius_m"] * cos(radians(w.get("roller_deg", 0.0))),
         )
         for w in case["geometry"]["wheel"]
     ]

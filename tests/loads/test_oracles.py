@@ -63,7 +63,7 @@ def test_normal_forces(case: dict[str, Any]) -> None:
 def test_double_rows(case: dict[str, Any]) -> None:
     wheels = case["geometry"]["wheel"]
     first, second, third = (
-        OmniWheel.along(w["contact"], w["drive"], w["radius_m"]) for w in wheels
+        OmniWheel.along(tuple(w["contact"]), tuple(w["drive"]), w["radius_m"]) for w in wheels
     )
     radius = case["geometry"]["sphere_radius_m"]
     geometry = Geometry("x", radius, (first, second, third))
