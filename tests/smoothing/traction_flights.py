@@ -17,13 +17,17 @@ from .platforms import Platform
 
 
 class Kept:
-    """A preset with masses and a vertical preload (N), whose motions keep traction."""
+    """A preset with masses, whose motions keep traction.
 
-    def __init__(self, preset: str, preload: float) -> None:
+    preload: straight down, N; halo: share of the preset's own preloads.
+    """
+
+    def __init__(self, preset: str, preload: float, halo: float = 1.0) -> None:
         file = load_platform(preset)
         down = Preload((0.0, 0.0, 1.0), preload)
         model = file.load_model()
-        self.model = replace(model, preloads=(*model.preloads, down)) if preload else model
+        own = tuple(replace(each, force=halo * each.force) for each in model.preloads)
+        self.model = replace(model, preloads=(*own, down) if preload else own)
         self.wheels = Wheels(file.geometry())
         self.limits = Platform(
             np.array(self.wheels.wheels_from_sphere),
@@ -52,7 +56,10 @@ class Kept:
 
 
 def demand(model: LoadModel, flight: Flight) -> tuple[Array, Array, Array]:
-    """Share of the friction with its margin, normal force (N) and torque (N m), (n, 3) each."""
+    """Share of the friction with its margin, normal forces (N) and torques (N m).
+
+    (n, 3) each, and a normal force for each support after those of the wheels.
+    """
     turn = Rotation.from_quat(np.roll(flight.q, -1, axis=1))
     m, c = model.body.mass, turn.apply(np.array(model.body.com_S))
     w, alpha = flight.w, flight.alpha
@@ -63,22 +70,41 @@ def demand(model: LoadModel, flight: Flight) -> tuple[Array, Array, Array]:
     inertia = turn.as_matrix() @ central @ turn.inv().as_matrix()
     spin = np.einsum("nij,nj->ni", inertia, w)
     moment = np.einsum("nij,nj->ni", inertia, alpha) + np.cross(w, spin) + np.cross(c, force)
-    # six contact forces balance moment and force: drives along v at R u, normal forces along -u
-    u = np.array([wheel.contact for wheel in model.wheels])
-    v = np.array([wheel.drive for wheel in model.wheels])
-    columns = np.block([
-        [model.sphere_radius * np.cross(u, v).T, np.zeros((3, 3))],
-        [v.T, -u.T],
-    ])  # fmt: skip
-    pushed = -sum((p.force * np.array(p.contact) for p in model.preloads), np.zeros(3))
-    found = np.linalg.solve(columns, np.hstack([moment, force - pushed]).T).T
-    drive, normal = found[:, :3], found[:, 3:]
+    drive, normal = _contact_forces(model, moment, force)
     radius = np.array([wheel.radius for wheel in model.wheels])
-    to_wheels = model.sphere_radius / radius[:, None] * np.cross(u, v)
+    u, v = _ways(model)
+    to_wheels = model.sphere_radius / radius[:, None] * np.cross(u[:3], v)
     speed, acceleration = w @ to_wheels.T, alpha @ to_wheels.T
     mu, J, b, k = np.array([
         (wheel.friction, wheel.inertia, wheel.viscous, wheel.coulomb) for wheel in model.wheels
     ]).T  # fmt: skip
     torque = radius * drive + J * acceleration + b * speed + k * np.sign(speed)
-    use = np.abs(drive) * model.traction_margin / (mu * np.where(normal > 0.0, normal, 1e-9))
-    return use, normal, torque
+    touching = np.where(normal[:, :3] > 0.0, normal[:, :3], 1e-9)
+    return np.abs(drive) * model.traction_margin / (mu * touching), normal, torque
+
+
+def _ways(model: LoadModel) -> tuple[Array, Array]:
+    """Contacts of wheels, then supports, and the wheels' drives."""
+    touching = (*model.wheels, *model.supports)
+    return np.array([each.contact for each in touching]), np.array([w.drive for w in model.wheels])
+
+
+def _contact_forces(model: LoadModel, moment: Array, force: Array) -> tuple[Array, Array]:
+    """Drive forces (n, 3) and normal forces (n, wheels and supports), N.
+
+    Unknown together: drives F along v at R u, normal forces n along -u, displacement d on springs,
+
+        R sum (u x v) F = M        sum v F - sum u n = f - preloads        n - k u . d = n_0
+    """
+    (u, v), count = _ways(model), len(model.wheels) + len(model.supports)
+    stiff = np.array([each.stiffness for each in (*model.wheels, *model.supports)])
+    alone = np.array([0.0, 0.0, 0.0, *(each.preload for each in model.supports)])
+    pushed = -sum((p.force * np.array(p.contact) for p in model.preloads), np.zeros(3))
+    matrix = np.block([
+        [model.sphere_radius * np.cross(u[:3], v).T, np.zeros((3, count + 3))],
+        [v.T, -u.T, np.zeros((3, 3))],
+        [np.zeros((count, 3)), np.eye(count), -stiff[:, None] * u / stiff[0]],
+    ])  # fmt: skip
+    known = np.hstack([moment, force - pushed, np.tile(alone, (len(moment), 1))])
+    found = np.linalg.solve(matrix, known.T).T
+    return found[:, :3], found[:, 3 : 3 + count]
