@@ -1,12 +1,16 @@
 """One jerk-limited axis: it meets a target within reach, and nears any other the shortest way.
 
-Within one tick of length h, two halves of constant jerk lead from (v, a) to any (v1, a1):
+Within a time T, two halves of constant jerk lead from (v, a) to any (v1, a1):
 
-    a1 - a = (j1 + j2) h / 2        v1 - v - a h = (3 j1 + j2) h^2 / 8
+    a1 - a = (j1 + j2) T / 2        v1 - v - a T = (3 j1 + j2) T^2 / 8
 
-If both stay within the jerk limit, and the acceleration between them within its own, that step is
-flown: it has the least peak jerk, and a feasible cue passes unchanged. Otherwise ruckig plans
-    (velocity interface; Berscheid & Kroeger, RSS 2021).
+If both stay within the jerk limit, and the acceleration between them within its own, with one tick
+for T, that step is flown: it has the least peak jerk, and a feasible cue passes unchanged. If they
+do with a few ticks, h each, for T and two thirds of the jerk, towards v1 + a1 (T - h), where the
+target is by then, the first of these ticks is flown. Otherwise ruckig plans the way of least time
+    (velocity interface; Berscheid & Kroeger, RSS 2021),
+which has full jerk to its end: a target that moves other than a1 says would be crossed tick by
+tick, the jerk going from limit to limit.
 
 Traps of ruckig 0.19 closed here: non-finite numbers and short lists reach its C++ unchecked, so
 they are refused before the call; an error leaves old values in its output, so a call returns a
@@ -29,6 +33,10 @@ from .stop import Stop
 
 # share of each limit left unused, so that finite differences of what is flown stay inside it
 _ROUNDING = 1e-9
+_EASED = (2, 3, 4, 6, 8, 12, 16, 24)  # ticks in which a near target may be met
+_EASING = 0.0251  # s, the longest of them (assumed; 25 ms is 3 ticks of 120 Hz)
+# of the jerk, to meet it with: with all of it, noise of a cue would turn the jerk round (assumed)
+_EASED_SHARE = 2.0 / 3.0
 
 
 @dataclass(slots=True, init=False)
@@ -76,6 +84,7 @@ class AxisSmoothing:
             (1.0 - _ROUNDING) * x for x in (speed - bend, acceleration, jerk)
         )
         self._soft = None if stop_share is None else stop_share * self.acceleration
+        self._times = [k * dt for k in _EASED if k * dt <= _EASING]
         # below it every acceleration is fine
         self._cruise = self.speed - 0.5 * self.acceleration**2 / self.jerk
         self._generator, self._input, self._trajectory = (
@@ -104,7 +113,7 @@ class AxisSmoothing:
     def towards(self, v: float, a: float, v_target: float, a_target: float) -> Step:
         """Give the step from (v, a) on the way to the clipped target. Raises PlanningError."""
         v1, a1 = self.clip(v_target, a_target)
-        return self._reach(v, a, v1, a1) or self._plan(v, a, v1, a1)
+        return self._reach(v, a, v1, a1) or self._eased(v, a, v1, a1) or self._plan(v, a, v1, a1)
 
     def stopping(self, v: float, a: float) -> Step:
         """Give the step from (v, a) into the closed-form stop; it needs no generator."""
@@ -143,11 +152,30 @@ class AxisSmoothing:
         h = self.dt
         gained, missing = (a1 - a) / h, 4.0 * (v1 - v - a * h) / (h * h)
         j1, j2 = missing - gained, 3.0 * gained - missing
-        if not (-self.jerk <= j1 <= self.jerk and -self.jerk <= j2 <= self.jerk):
-            return None
-        if not -self.acceleration <= a + 0.5 * j1 * h <= self.acceleration:
+        if not self._have(self.jerk, j1, j2, a + 0.5 * j1 * h):
             return None
         return Step(h * (v + h * (0.5 * a + h * (7.0 * j1 + j2) / 48.0)), v1, a1, True)
+
+    def _eased(self, v: float, a: float, v1: float, a1: float) -> Step | None:
+        """Give the first tick of two halves that meet the target in few ticks, if any do."""
+        h, gentle = self.dt, _EASED_SHARE * self.jerk
+        for time in self._times:
+            gained, missing = (a1 - a) / time, 4.0 * ((v1 - v - a * time) + a1 * (time - h))
+            j1 = missing / (time * time) - gained
+            if self._have(gentle, j1, 2.0 * gained - j1, a + 0.5 * j1 * time):
+                a2, v2 = a + j1 * h, v + h * (a + 0.5 * j1 * h)
+                if not max(abs(v2), abs(v2 + a2 * abs(a2) / (2.0 * self.jerk))) <= self.speed:
+                    return None
+                return Step(h * (v + h * (0.5 * a + h * j1 / 6.0)), v2, a2, False)
+        return None
+
+    def _have(self, jerk: float, j1: float, j2: float, between: float) -> bool:
+        """Whether two halves keep this jerk, and the acceleration between them its limit."""
+        return (
+            -jerk <= j1 <= jerk
+            and -jerk <= j2 <= jerk
+            and -self.acceleration <= between <= self.acceleration
+        )
 
     def _plan(self, v: float, a: float, v1: float, a1: float) -> Step:
         """Give the step along ruckig's trajectory to (v1, a1), checked."""

@@ -3,12 +3,13 @@
 With e = log(q_cue q^-1) the turn still to go (rotation vector in W, |e| its geodesic length) and n
 its direction, the sphere is asked for
 
-    Omega = Omega_cue + g(|e|) n          alpha = alpha_cue - g'(|e|) g(|e|) n
+    Omega = Omega_cue + g(|e|) n      alpha = alpha_cue - g'(|e|) g(|e|) n + g(|e|) Omega_cue x n
 
-so that |e|' = -g(|e|). The closing speed g is gain |e| near the cue, and far from it the speed from
-which the wheels can still brake to a stop on the cue. J^-1 (paper, Eq. 22, and Eq. 19 for alpha)
-turns both into targets of the three wheels, each of which keeps its own speed, acceleration and
-jerk. The turn each wheel really makes goes back through J and Eq. 20 into the orientation.
+so that |e|' = -g(|e|) and n turns with the cue, n' = Omega_cue x n. The closing speed g is gain |e|
+near the cue, and far from it the speed from which the wheels can still brake to a stop on the cue.
+J^-1 (paper, Eq. 22, and Eq. 19 for alpha) turns both into targets of the three wheels, each of
+which keeps its own speed, acceleration and jerk. The turn each wheel really makes goes back through
+J and Eq. 20 into the orientation.
 """
 
 # mypyc: runs every tick
@@ -24,6 +25,7 @@ from ..rotation import (
     add,
     apply,
     continuous,
+    cross,
     difference,
     integrate_base,
     log_unwound,
@@ -159,8 +161,10 @@ class SphereSmoothing:
         closing, slope = approach(angle, _GAIN, self._braking, self._braking_jerk)
         if not self._have(add(speed, scale(closing, direction))):
             closing, slope = min(closing, self._spare(speed, direction)), 0.0
-        return add(speed, scale(closing, direction)), subtract(
-            acceleration, scale(slope * closing, direction)
+        across = cross(cue.w_WS_W, scale(closing / angle, to_go))
+        return add(speed, scale(closing, direction)), add(
+            subtract(acceleration, scale(slope * closing, direction)),
+            apply(self._wheels_from_sphere, across),
         )
 
     def _have(self, wheels: Vec3) -> bool:

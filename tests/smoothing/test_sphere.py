@@ -71,6 +71,22 @@ def test_after_a_spell_beyond_the_limits_it_comes_back_to_the_cue(dt: float) -> 
     assert flight.limited[-1, 0] == 0.0
 
 
+def test_on_the_way_to_a_turning_cue_the_wheels_are_where_they_are_asked_to_be() -> None:
+    """40 deg about x behind a cue that turns about z: the way to go turns with it."""
+    dt, w = 1.0 / 500.0, np.array([0.0, 0.0, 2.0])
+    t = dt * np.arange(1500)
+    behind = Rotation.from_rotvec(np.radians([40.0, 0.0, 0.0]))
+    q = np.roll((Rotation.from_rotvec(t[:, None] * w) * behind).as_quat(), 1, axis=1)
+    cues = [UPRIGHT, *(cue(s, each, w, ZERO, ZERO, ZERO) for s, each in zip(t, q, strict=True))]
+    flight = fly(EQUILATERAL, dt, cues)
+    check(EQUILATERAL, flight)
+    to_go = left(flight, cues)
+    degrees = np.degrees(np.linalg.norm(to_go, axis=1))
+    missing = np.linalg.norm(w + 4.0 * to_go - flight.w, axis=1)[(degrees > 0.5) & (degrees < 3.0)]
+    assert len(missing) > 200
+    assert np.max(missing) < 2e-3
+
+
 @pytest.mark.parametrize("dt", DTS)
 @pytest.mark.parametrize("size", [0.3, 1.0, 1.8])
 def test_a_feasible_cue_passes_without_lag_and_without_chatter(size: float, dt: float) -> None:
