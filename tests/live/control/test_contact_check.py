@@ -7,22 +7,44 @@ from smoothing.cues import wild
 from smoothing.flights import Flight
 from smoothing.traction_flights import Kept, demand
 
-from atlas_cueing.live.control.certified_axis import SoftStop
-from atlas_cueing.live.control.command import Command
+from atlas_cueing.live.control.certified_axis import SoftStop, six_axes
+from atlas_cueing.live.control.command import Command, axes_of, command_from
+from atlas_cueing.live.control.gentle_stop import GentleStop
 from atlas_cueing.live.control.guard import Guard
 from atlas_cueing.live.kept_contacts import check_of
-from atlas_cueing.rotation import ZERO
-from atlas_cueing.signals import SOFT_STAGE_SHARE, SOFT_WHEEL_SHARE, StageLimits, WheelLimits
+from atlas_cueing.rotation import ZERO, Vec3
+from atlas_cueing.signals import (
+    SOFT_STAGE_SHARE,
+    SOFT_WHEEL_SHARE,
+    Motion,
+    StageLimits,
+    WheelLimits,
+)
 from atlas_cueing.smoothing import Stop
 
 DT = 1.0 / 120.0
 
 
-def soft_guard(kept: Kept) -> Guard:
+def soft_limits(kept: Kept) -> tuple[WheelLimits, StageLimits]:
     w, s = kept.limits.wheels, kept.limits.stage
-    wheels = WheelLimits(w.speed, w.acceleration, w.jerk, SOFT_WHEEL_SHARE)
-    stage = StageLimits(s.travel, s.speed, s.acceleration, s.jerk, SOFT_STAGE_SHARE)
-    return Guard(DT, wheels, stage, check_of(kept.model))
+    return (
+        WheelLimits(w.speed, w.acceleration, w.jerk, SOFT_WHEEL_SHARE),
+        StageLimits(s.travel, s.speed, s.acceleration, s.jerk, SOFT_STAGE_SHARE),
+    )
+
+
+def soft_guard(kept: Kept) -> Guard:
+    return Guard(DT, *soft_limits(kept), check_of(kept.model))
+
+
+def command_of(motion: Motion, wheels: tuple[Vec3, Vec3, Vec3]) -> Command:
+    angle, speed, acceleration = wheels
+    stage = motion.p_WS_W, motion.v_WS_W, motion.a_WS_W
+    return Command(motion.time, speed, acceleration, *stage, angle)
+
+
+def turn_of(before: Command, after: Command) -> np.ndarray:
+    return np.subtract(after.wheel_angle, before.wheel_angle)
 
 
 def test_the_stop_is_smoothings_soft_stop() -> None:
@@ -49,17 +71,13 @@ def test_it_passes_what_smoothing_makes_and_stops_with_traction_from_anywhere() 
         guard.start(Command(0.0, ZERO, ZERO, motion.p_WS_W, ZERO, ZERO, ZERO))
         for cue in cues[1:]:
             motion = smoothing.step(cue)
-            angle, speed, acceleration = smoothing.wheel_motion()
-            given = Command(
-                motion.time, speed, acceleration, motion.p_WS_W, motion.v_WS_W, motion.a_WS_W, angle
-            )
+            given = command_of(motion, smoothing.wheel_motion())
             assert guard.check(given, motion.q_WS) is given, guard.reason
         q, rows, time = motion.q_WS, [], motion.time
         for _ in range(2000):
             before, time = given, time + DT
             given = guard.stop(time)
-            turn = J @ np.subtract(given.wheel_angle, before.wheel_angle)
-            q = turned(q, turn)
+            q = turned(q, J @ turn_of(before, given))
             rows.append((q, given))
             if guard.standing:
                 break
@@ -67,6 +85,29 @@ def test_it_passes_what_smoothing_makes_and_stops_with_traction_from_anywhere() 
         use, normal, _ = demand(kept.model, flight_of(J, rows))
         assert use.max() <= 1.0
         assert normal.min() > 0.0
+
+
+@pytest.mark.parametrize("preset", ["atlas-2.9m", "atlas-2.9m-halo"])
+def test_it_passes_a_hold_from_anywhere(preset: str) -> None:
+    """The hold flies the same soft stop, command by command."""
+    kept = Kept(preset, 0.0, 0.0)
+    wheels, stage = soft_limits(kept)
+    for seed in (1, 2, 3):
+        smoothing, guard = kept.smoothing(DT), soft_guard(kept)
+        cues = list(wild(DT, 300 + 100 * seed, np.random.default_rng(seed)))
+        motion = smoothing.step(cues[0])
+        given = Command(0.0, ZERO, ZERO, motion.p_WS_W, ZERO, ZERO, ZERO)
+        guard.start(given)
+        for cue in cues[1:]:
+            motion = smoothing.step(cue)
+            given = command_of(motion, smoothing.wheel_motion())
+            assert guard.check(given, motion.q_WS) is given, guard.reason
+        assert any(given.wheel_speed)
+        q, hold = motion.q_WS, GentleStop(six_axes(DT, wheels, stage), axes_of(given), DT)
+        while not hold.arrived:
+            before, given = given, command_from(given.time + DT, hold.next())
+            q = turned(q, np.array(kept.wheels.sphere_from_wheels) @ turn_of(before, given))
+            assert guard.check(given, q) is given, guard.reason
 
 
 def test_it_stops_at_a_command_that_slips() -> None:
@@ -77,13 +118,7 @@ def test_it_stops_at_a_command_that_slips() -> None:
     guard.start(Command(0.0, ZERO, ZERO, motion.p_WS_W, ZERO, ZERO, ZERO))
     for cue in cues[1:]:
         motion = smoothing.step(cue)
-        angle, speed, acceleration = smoothing.wheel_motion()
-        guard.check(
-            Command(
-                motion.time, speed, acceleration, motion.p_WS_W, motion.v_WS_W, motion.a_WS_W, angle
-            ),
-            motion.q_WS,
-        )
+        guard.check(command_of(motion, smoothing.wheel_motion()), motion.q_WS)
     assert "force" in guard.reason or "standstill" in guard.reason
     assert "allowed" in guard.reason
 
