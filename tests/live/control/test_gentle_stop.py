@@ -20,6 +20,7 @@ DT = 1e-3
 WEAK = ("platform.wheel_limits.acceleration_rad_s2=6", "platform.wheel_limits.jerk_rad_s3=20")
 STIFF = ("platform.wheel_limits.acceleration_rad_s2=300", "platform.wheel_limits.jerk_rad_s3=2e4")
 SLOW = ("platform.stage_limits.acceleration_m_s2=0.4", "platform.stage_limits.jerk_m_s3=0.5")
+KEPT = ("platform.traction.keep=true",)
 PRESETS = ["atlas-2.9m", "atlas-1.5m", "atlas-tabletop", "atlas-orthogonal"]
 
 magnitudes = st.floats(-3.0, 3.0).map(lambda power: 10.0**power)
@@ -104,7 +105,9 @@ def held(platform: str, settings: tuple[str, ...]) -> Rig:
     return rig
 
 
-@pytest.mark.parametrize("settings", [(), WEAK, STIFF, SLOW], ids=["", "weak", "stiff", "slow"])
+@pytest.mark.parametrize(
+    "settings", [(), WEAK, STIFF, SLOW, KEPT], ids=["", "weak", "stiff", "slow", "kept"]
+)
 @pytest.mark.parametrize("platform", PRESETS)
 def test_a_hold_ends_where_it_led_to(platform: str, settings: tuple[str, ...]) -> None:
     """The orientation nears its last one from the first tick on, on any platform, without a fault;
