@@ -9,7 +9,7 @@ from pydantic import ValidationInfo, field_validator, model_validator
 from ..errors import InputError
 from ..loads import UNLIMITED, KeptRows, LoadModel, body_of
 from ..rotation import Vec3, norm
-from ..signals import SOFT_STAGE_SHARE, SOFT_WHEEL_SHARE, StageLimits, WheelLimits
+from ..signals import StageLimits, WheelLimits
 from ..wheels import Geometry
 from .load_tables import (
     SEVERAL,
@@ -33,6 +33,11 @@ from .tables import (
     says,
 )
 from .wheel_tables import Length, Limit, LimitsOfEach, WheelLimitsTable, WheelTable, of_each
+
+# of the wheels' acceleration, for the stop that keeps traction: the sphere has no travel (assumed)
+_SOFT_WHEEL_SHARE = 1.0 / 16.0
+# of the stage's, likewise: its full acceleration may lift a wheel by itself (assumed)
+_SOFT_STAGE_SHARE = 0.3
 
 Limits: TypeAlias = Annotated[tuple[Limit, Limit, Limit], ONE_OR_THREE]
 
@@ -188,7 +193,7 @@ class Platform(ScenarioTable):
             self._three(each.speed),
             self._three(each.acceleration),
             self._three(each.jerk),
-            SOFT_WHEEL_SHARE if self._keeps_traction else 1.0,
+            _SOFT_WHEEL_SHARE if self._keeps_traction else 1.0,
         )
 
     def limits_of_each_wheel(self) -> LimitsOfEach:
@@ -213,7 +218,7 @@ class Platform(ScenarioTable):
             table.speed_m_s,
             table.acceleration_m_s2,
             table.jerk_m_s3,
-            SOFT_STAGE_SHARE if self._keeps_traction else 1.0,
+            _SOFT_STAGE_SHARE if self._keeps_traction else 1.0,
         )
 
     @property

@@ -2,7 +2,7 @@
 
 from .attitude_jump import attitude_jump
 from .felt import STANDARD_GRAVITY, direction_error, felt
-from .limits import SOFT_STAGE_SHARE, SOFT_WHEEL_SHARE, StageLimits, WheelLimits
+from .limits import StageLimits, WheelLimits
 from .load_columns import LoadColumns
 from .seams import ContactRows, Sink, Vehicle, WheelDrive
 from .state_change import StateChange
@@ -36,8 +36,6 @@ __all__ = [
     "LOADS",
     "PLANT",
     "ROW",
-    "SOFT_STAGE_SHARE",
-    "SOFT_WHEEL_SHARE",
     "STANDARD_GRAVITY",
     "TIMING",
     "TOPICS",

@@ -4,13 +4,6 @@ from dataclasses import dataclass
 
 from ..rotation import Vec3
 
-SOFT_WHEEL_SHARE = 1.0 / 16.0
-"""Of the wheels' acceleration, for the stop that keeps traction: the sphere has no travel
-(assumed)."""
-
-SOFT_STAGE_SHARE = 0.3
-"""Of the stage's, likewise: its full acceleration may lift a wheel by itself (assumed)."""
-
 
 @dataclass(frozen=True, slots=True)
 class WheelLimits:

@@ -64,9 +64,9 @@ class AxisSmoothing:
         speed: float,
         acceleration: float,
         jerk: float,
-        stop_share: float | None = None,
+        stop_share: float = 1.0,
     ) -> None:
-        """Limits are magnitudes; dt in s; stop_share: of the acceleration, for a soft stop.
+        """Limits are magnitudes; dt in s; stop_share: of the acceleration, below 1 for soft stops.
 
         Raises ValueError for limits that are not positive or leave no room between ticks.
 
@@ -83,7 +83,8 @@ class AxisSmoothing:
         self.speed, self.acceleration, self.jerk = (
             (1.0 - _ROUNDING) * x for x in (speed - bend, acceleration, jerk)
         )
-        self._soft = None if stop_share is None else stop_share * self.acceleration
+        self._soft = stop_share < 1.0
+        self.stop_acceleration = stop_share * self.acceleration
         self._times = [k * dt for k in _EASED if k * dt <= _EASING]
         # below it every acceleration is fine
         self._cruise = self.speed - 0.5 * self.acceleration**2 / self.jerk
@@ -122,9 +123,9 @@ class AxisSmoothing:
 
     def stop(self, v: float, a: float) -> Stop:
         """Give the certified stop from (v, a): the shortest one, or the soft one."""
-        if self._soft is None:
-            return Stop.plan(v, a, self.acceleration, self.jerk)
-        return Stop.soft(v, a, self._soft, self.jerk)
+        if self._soft:
+            return Stop.soft(v, a, self.stop_acceleration, self.jerk)
+        return Stop.plan(v, a, self.stop_acceleration, self.jerk)
 
     def range_at(self, a0: float, v0: float) -> tuple[float, float]:
         """Give the accelerations that one constant jerk may lead to from (v0, a0) in a tick.

@@ -7,15 +7,7 @@ from typing import Final
 
 from ..errors import InputError, PlanningError
 from ..rotation import Mat3, Vec3, norm
-from ..signals import (
-    SOFT_STAGE_SHARE,
-    SOFT_WHEEL_SHARE,
-    ContactRows,
-    Cue,
-    Motion,
-    StageLimits,
-    WheelLimits,
-)
+from ..signals import ContactRows, Cue, Motion, StageLimits, WheelLimits
 from .sphere import SphereSmoothing
 from .stage import StageSmoothing
 from .traction import KeptTraction
@@ -50,11 +42,8 @@ class Smoothing:
         Raises ValueError for limits that leave no room to move.
         """
         self._dt = dt
-        turning, moving = (None, None) if contacts is None else (SOFT_WHEEL_SHARE, SOFT_STAGE_SHARE)
-        self._sphere = SphereSmoothing(
-            dt, wheels_from_sphere, sphere_from_wheels, wheel_limits, turning
-        )
-        self._stage = StageSmoothing(dt, stage_limits, moving)
+        self._sphere = SphereSmoothing(dt, wheels_from_sphere, sphere_from_wheels, wheel_limits)
+        self._stage = StageSmoothing(dt, stage_limits)
         self._contacts = contacts
         self._kept = (
             None if contacts is None else KeptTraction(dt, contacts, self._sphere, self._stage)

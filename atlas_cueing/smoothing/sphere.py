@@ -56,9 +56,8 @@ class SphereSmoothing:
         wheels_from_sphere: Mat3,
         sphere_from_wheels: Mat3,
         limits: WheelLimits,
-        stop_share: float | None = None,
     ) -> None:
-        """Start at rest; dt in s; stop_share as for `AxisSmoothing`.
+        """Start at rest; dt in s.
 
         The maps are J^-1 (rad/s of wheels per rad/s of the sphere) and J.
         """
@@ -66,9 +65,9 @@ class SphereSmoothing:
         self._wheels_from_sphere, self._sphere_from_wheels = wheels_from_sphere, sphere_from_wheels
         one, two, three = zip(limits.speed, limits.acceleration, limits.jerk, strict=True)
         self._axes = (
-            AxisSmoothing(dt, *one, stop_share),
-            AxisSmoothing(dt, *two, stop_share),
-            AxisSmoothing(dt, *three, stop_share),
+            AxisSmoothing(dt, *one, limits.stop_share),
+            AxisSmoothing(dt, *two, limits.stop_share),
+            AxisSmoothing(dt, *three, limits.stop_share),
         )
         self._braking, self._braking_jerk = (
             self._reserve(limits.acceleration),

@@ -39,14 +39,13 @@ class RailAxis:
         speed: float,
         acceleration: float,
         jerk: float,
-        stop_share: float | None = None,
+        stop_share: float = 1.0,
     ) -> None:
         """Start at rest in the centre; stop_share as for `AxisSmoothing`.
 
         Raises ValueError for limits that leave no room to move between two ticks.
         """
         self._axis = AxisSmoothing(dt, speed, acceleration, jerk, stop_share)
-        self._stop_acceleration = self._axis.acceleration * (stop_share or 1.0)
         self.travel = travel - acceleration * dt * dt / 8.0
         if not self.travel > 0.0:
             raise ValueError(
@@ -54,7 +53,7 @@ class RailAxis:
                 f" {travel} m"
             )
         self._braking, self._braking_jerk = (
-            _BRAKING_SHARE * self._stop_acceleration,
+            _BRAKING_SHARE * self._axis.stop_acceleration,
             _BRAKING_SHARE * self._axis.jerk,
         )
         self.p = self.v = self.a = 0.0
@@ -115,7 +114,7 @@ class RailAxis:
         """Whether the stop from where the step leads stays inside the travel."""
         p = self.p + step.displacement
         if (
-            abs(p) + stop_bound(step.v, step.a, self._stop_acceleration, self._axis.jerk)
+            abs(p) + stop_bound(step.v, step.a, self._axis.stop_acceleration, self._axis.jerk)
             <= self.travel
         ):
             return True
@@ -126,13 +125,13 @@ class RailAxis:
 class StageSmoothing:
     """Position, velocity and acceleration of the stage (W) tick by tick, inside its limits."""
 
-    def __init__(self, dt: float, limits: StageLimits, stop_share: float | None = None) -> None:
-        """Start at rest in the centre; dt in s; stop_share as for `AxisSmoothing`."""
+    def __init__(self, dt: float, limits: StageLimits) -> None:
+        """Start at rest in the centre; dt in s."""
         x, y, z = zip(limits.travel, limits.speed, limits.acceleration, limits.jerk, strict=True)
         self._axes = (
-            RailAxis(dt, *x, stop_share),
-            RailAxis(dt, *y, stop_share),
-            RailAxis(dt, *z, stop_share),
+            RailAxis(dt, *x, limits.stop_share),
+            RailAxis(dt, *y, limits.stop_share),
+            RailAxis(dt, *z, limits.stop_share),
         )
 
     @property

@@ -22,7 +22,7 @@ class Recorder(AxisSmoothing):
         speed: float,
         acceleration: float,
         jerk: float,
-        stop_share: float | None = None,
+        stop_share: float = 1.0,
     ) -> None:
         super().__init__(dt, speed, acceleration, jerk, stop_share)
         self.times = np.linspace(0.0, dt, SUBSTEPS + 1)

@@ -28,6 +28,9 @@ class Kept:
         model = file.load_model()
         own = tuple(replace(each, force=halo * each.force) for each in model.preloads)
         self.model = replace(model, preloads=(*own, down) if preload else own)
+        assert file.traction is not None
+        keeping = file.traction.model_copy(update={"keep": True})
+        file = file.model_copy(update={"traction": keeping})  # its stops are soft
         self.wheels = Wheels(file.geometry())
         self.limits = Platform(
             np.array(self.wheels.wheels_from_sphere),
@@ -36,12 +39,13 @@ class Kept:
         )
 
     def smoothing(self, dt: float, *, kept: bool = True) -> Smoothing:
+        stop = {} if kept else {"stop_share": 1.0}
         return Smoothing(
             dt=dt,
             wheels_from_sphere=self.wheels.wheels_from_sphere,
             sphere_from_wheels=self.wheels.sphere_from_wheels,
-            wheel_limits=self.limits.wheels,
-            stage_limits=self.limits.stage,
+            wheel_limits=replace(self.limits.wheels, **stop),
+            stage_limits=replace(self.limits.stage, **stop),
             contacts=self.model.kept_rows() if kept else None,
         )
 

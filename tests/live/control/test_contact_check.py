@@ -14,27 +14,15 @@ from atlas_cueing.live.control.guard import Guard
 from atlas_cueing.live.kept_contacts import check_of
 from atlas_cueing.rotation import ZERO, Vec3
 from atlas_cueing.signals import (
-    SOFT_STAGE_SHARE,
-    SOFT_WHEEL_SHARE,
     Motion,
-    StageLimits,
-    WheelLimits,
 )
 from atlas_cueing.smoothing import Stop
 
 DT = 1.0 / 120.0
 
 
-def soft_limits(kept: Kept) -> tuple[WheelLimits, StageLimits]:
-    w, s = kept.limits.wheels, kept.limits.stage
-    return (
-        WheelLimits(w.speed, w.acceleration, w.jerk, SOFT_WHEEL_SHARE),
-        StageLimits(s.travel, s.speed, s.acceleration, s.jerk, SOFT_STAGE_SHARE),
-    )
-
-
 def soft_guard(kept: Kept) -> Guard:
-    return Guard(DT, *soft_limits(kept), check_of(kept.model))
+    return Guard(DT, kept.limits.wheels, kept.limits.stage, check_of(kept.model))
 
 
 def command_of(motion: Motion, wheels: tuple[Vec3, Vec3, Vec3]) -> Command:
@@ -91,7 +79,6 @@ def test_it_passes_what_smoothing_makes_and_stops_with_traction_from_anywhere() 
 def test_it_passes_a_hold_from_anywhere(preset: str) -> None:
     """The hold flies the same soft stop, command by command."""
     kept = Kept(preset, 0.0, 0.0)
-    wheels, stage = soft_limits(kept)
     for seed in (1, 2, 3):
         smoothing, guard = kept.smoothing(DT), soft_guard(kept)
         cues = list(wild(DT, 300 + 100 * seed, np.random.default_rng(seed)))
@@ -103,7 +90,10 @@ def test_it_passes_a_hold_from_anywhere(preset: str) -> None:
             given = command_of(motion, smoothing.wheel_motion())
             assert guard.check(given, motion.q_WS) is given, guard.reason
         assert any(given.wheel_speed)
-        q, hold = motion.q_WS, GentleStop(six_axes(DT, wheels, stage), axes_of(given), DT)
+        q, hold = (
+            motion.q_WS,
+            GentleStop(six_axes(DT, kept.limits.wheels, kept.limits.stage), axes_of(given), DT),
+        )
         while not hold.arrived:
             before, given = given, command_from(given.time + DT, hold.next())
             q = turned(q, np.array(kept.wheels.sphere_from_wheels) @ turn_of(before, given))
