@@ -1,6 +1,10 @@
 """Closes the loop: from sensors to an estimate, to a correction of the wheels' schedule.
 
-    Omega_c = K log(q_ref q_hat^-1),  |Omega_c| <= limit,  wheels: J^-1 Omega_c
+    Omega_c = K e,  e = log(q_ref q_hat^-1),  |Omega_c| <= limit, sqrt(2 a |e|)
+    wheels: J^-1 Omega_c
+
+with a the acceleration that the correction may have about any axis: from the last bound it can stop
+where the error ends.
 
 | feedback | the estimate q_hat |
 |---|---|
@@ -16,13 +20,14 @@ holonomic, so the wheels' angles do not tell the orientation.
 # mypyc: runs every tick
 
 from dataclasses import dataclass
+from math import sqrt
 from random import Random
 from typing import Final
 
 from ..rotation import Mat3, Quat, Vec3, apply, conjugate, exp, log, multiply, norm, rotate, scale
 from .attitude_observer import AttitudeObserver
 from .sensors import AbsoluteFix, PlantGyro
-from .wheel_correction import WheelCorrection
+from .wheel_correction import SHARE, WheelCorrection
 
 FEEDBACKS = ("none", "odometry", "gyro", "fix")
 
@@ -41,6 +46,19 @@ class LoopSettings:
     fix_gain: float
     fix_bias_gain: float
     seed: int
+    first_fix_gain: float = 0.0
+    share: float = SHARE  # of the wheels' acceleration limits
+
+
+def correction_rate(error: Vec3, gain: float, largest: float, acceleration: float) -> Vec3:
+    """Rate, rad/s, that takes an error (rotation vector, rad) away.
+
+    gain 1/s; largest rad/s; acceleration rad/s^2: with which the rate can fall again.
+    """
+    size = norm(error)
+    if size == 0.0:
+        return error
+    return scale(min(gain, largest / size, sqrt(2.0 * acceleration / size)), error)
 
 
 class AttitudeLoop:
@@ -68,7 +86,7 @@ class AttitudeLoop:
         self._fix: Final[AbsoluteFix] = AbsoluteFix(s.fix_rate, s.fix_noise, s.fix_latency, random)
         memory = s.fix_latency + 1.0 / s.fix_rate
         self._observer: Final[AttitudeObserver] = AttitudeObserver(
-            q_WS, s.fix_gain, s.fix_bias_gain, 1.0 / s.fix_rate, memory
+            q_WS, s.fix_gain, s.fix_bias_gain, 1.0 / s.fix_rate, memory, s.first_fix_gain
         )
         self.estimate_WS = q_WS
         self.residual: Vec3 = (0.0, 0.0, 0.0)
@@ -76,8 +94,12 @@ class AttitudeLoop:
         self._angles: Vec3 = (0.0, 0.0, 0.0)
         speed, acceleration, jerk = limits
         self.corrections: Final[list[WheelCorrection]] = [
-            WheelCorrection(speed[i], acceleration[i], jerk[i]) for i in range(3)
+            WheelCorrection(speed[i], acceleration[i], jerk[i], s.share) for i in range(3)
         ]
+        rows = self._wheels_from_sphere
+        self._acceleration: Final[float] = min(
+            s.share * acceleration[i] / norm(rows[i]) for i in range(3)
+        )
 
     def measure(self, time: float, q_WS: Quat, wheel_angles: Vec3, dt: float) -> None:
         """Look at the plant at `time` (s), dt (s) after the last look.
@@ -110,10 +132,8 @@ class AttitudeLoop:
         if self.feedback == "none":
             return
         error = log(multiply(wanted_WS, conjugate(self.estimate_WS)))
-        rate, most = scale(self._settings.gain, error), self._settings.largest_rate
-        size = norm(rate)
-        if size > most:
-            rate = scale(most / size, rate)
+        s = self._settings
+        rate = correction_rate(error, s.gain, s.largest_rate, self._acceleration)
         speeds = apply(self._wheels_from_sphere, rate)
         for i in range(3):
             self.corrections[i].step(speeds[i], schedule[i], h)

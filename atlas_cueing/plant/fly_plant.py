@@ -214,6 +214,8 @@ def _settings(table: PlantTable) -> LoopSettings:
         fix_gain=table.fix_gain,
         fix_bias_gain=table.fix_bias_gain,
         seed=table.seed,
+        first_fix_gain=table.first_fix_gain,
+        share=table.correction_share,
     )
 
 

@@ -8,6 +8,10 @@ ends inside the speed limit:
 
 (the last term is what running down in whole ticks may take more). A schedule that keeps its limits
 thus leaves the correction what room there is, and takes it back when it needs it.
+
+A schedule at its jerk limit lets the acceleration of the correction change in one direction only,
+for up to 2 a_max / J. A correction that accelerates hard then runs past what is wanted and needs
+friction to come back, which a platform that slips does not have; so it takes a small share.
 """
 
 # mypyc: runs every tick
@@ -15,14 +19,21 @@ thus leaves the correction what room there is, and takes it back when it needs i
 from math import sqrt
 from typing import Final
 
-_SHARE: Final = 0.25  # assumed: of acceleration and jerk that the correction uses for itself
-_RATE: Final = 10.0  # assumed: 1/s, how fast it takes up a new speed
+_JERK_SHARE: Final = 0.25  # assumed: of the jerk limit that the correction uses for itself
+_RATE: Final = 20.0  # assumed: 1/s, how fast it takes up a new speed; 4 gains: no overshoot
+SHARE: Final = 0.05  # assumed: of the acceleration limit
 
 
 class WheelCorrection:
-    """Correction of one wheel; limits: speed rad/s, acceleration rad/s^2, jerk rad/s^3."""
+    """Correction of one wheel; limits: speed rad/s, acceleration rad/s^2, jerk rad/s^3.
 
-    def __init__(self, speed: float, acceleration: float, jerk: float) -> None:
+    share: of the acceleration limit that the correction uses for itself.
+    """
+
+    def __init__(
+        self, speed: float, acceleration: float, jerk: float, share: float = SHARE
+    ) -> None:
+        self._calm: Final[float] = share * acceleration
         self._most: Final[tuple[float, float, float]] = (speed, acceleration, jerk)
         self.angle = 0.0
         self.speed = 0.0
@@ -34,9 +45,8 @@ class WheelCorrection:
         schedule: its speed and acceleration at the beginning, and acceleration at the end.
         """
         _, most, jerk = self._most
-        calm = _SHARE * most
-        aim = max(-calm, min(calm, _RATE * (wanted - self.speed)))
-        change = _SHARE * jerk * h
+        aim = max(-self._calm, min(self._calm, _RATE * (wanted - self.speed)))
+        change = _JERK_SHARE * jerk * h
         aim = max(self.acceleration - change, min(self.acceleration + change, aim))
         speed, now = schedule[0] + self.speed, schedule[1] + self.acceleration
         lowest, highest = max(-most, now - jerk * h), min(most, now + jerk * h)

@@ -60,11 +60,14 @@ class PlantTable(ScenarioTable):
         default=0.0, description="assumed: none; a camera has 20 to 50 ms"
     )
     fix_gain: Annotated[float, number(0.0, 1.0)] = Field(
-        default=0.08,
-        description="assumed: share of a fix that is believed; its noise counts a fifth",
+        default=0.03,
+        description="assumed: share of a fix that is believed in the long run, by both noises",
+    )
+    first_fix_gain: Annotated[float, number(0.0, 1.0)] = Field(
+        default=0.2, description="assumed: of the first one, while the gyro's bias is not known"
     )
     fix_bias_gain: Annotated[float, number(0.0, 1.0)] = Field(
-        default=0.0032,
+        default=0.00045,
         description="assumed: share that is taken for bias, fix_gain^2 / 2 for damping",
     )
     attitude_gain_1_s: Annotated[float, number(0.0, 100.0)] = Field(
@@ -72,6 +75,10 @@ class PlantTable(ScenarioTable):
     )
     correction_rate_rad_s: Annotated[float, number(0.0, 10.0)] = Field(
         default=0.5, description="assumed: the sphere is not corrected faster than that"
+    )
+    correction_share: Annotated[float, number(0.001, 1.0)] = Field(
+        default=0.05,
+        description="assumed: of the wheels' acceleration limits, for the correction",
     )
     step_s: Annotated[float, number(1e-6, 0.01)] = Field(
         default=1e-3, description="numerical; half of it changes no figure that is shown"

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, TypeVar
 
 import atlas_cueing
 from atlas_cueing.cueing.own.sources import installed_methods
@@ -43,6 +43,9 @@ class Order:
         names = {text.partition("=")[2] for text in self.settings}
         packages = (p.dist for name, p in installed_methods().items() if name in names)
         return "".join(f"{p.name} {p.version}" for p in packages if p).encode()
+
+
+OrderT = TypeVar("OrderT", bound=Order)
 
 
 def fly(order: Order) -> dict[str, Any]:
@@ -95,15 +98,22 @@ def _program() -> str:
 
 
 def flown(
-    orders: Iterable[Order], kept: Kept, jobs: int, tell: Callable[[str], object]
-) -> dict[Order, dict[str, Any]]:
-    """Fly what is not kept, so many at a time; `tell` gets a line for each."""
+    orders: Iterable[OrderT],
+    kept: Kept,
+    jobs: int,
+    tell: Callable[[str], object],
+    fly_one: Callable[[OrderT], dict[str, Any]] = fly,
+) -> dict[OrderT, dict[str, Any]]:
+    """Fly what is not kept, so many at a time; `tell` gets a line for each.
+
+    fly_one: by which a worker flies an order.
+    """
     wanted = list(dict.fromkeys(orders))
     rides = {order: ride for order in wanted if (ride := kept.get(order)) is not None}
     todo = [order for order in wanted if order not in rides]
     tell(f"{len(wanted)} rides, {len(rides)} of them flown before")
     with ProcessPoolExecutor(jobs) as pool:
-        running = {pool.submit(fly, order): order for order in todo}
+        running = {pool.submit(fly_one, order): order for order in todo}
         for done in as_completed(running):
             order = running[done]
             rides[order] = done.result()
