@@ -1,10 +1,10 @@
 """Closes the loop: from sensors to an estimate, to a correction of the wheels' schedule.
 
-    Omega_c = K e,  e = log(q_ref q_hat^-1),  |Omega_c| <= limit, sqrt(2 a |e|)
-    wheels: J^-1 Omega_c
+    e = log(q_ref q_hat^-1),  |Omega_c| <= limit,  wheels: J^-1 Omega_c
+    Omega_c = K e  near the end,  sqrt(2 a (|e| - a / (2 K^2))) e / |e|  for |e| > a / K^2
 
-with a the acceleration that the correction may have about any axis: from the last bound it can stop
-where the error ends.
+with a the acceleration that the correction may have about any axis: it falls by a, so that the
+correction can stop where the error ends.
 
 | feedback | the estimate q_hat |
 |---|---|
@@ -20,7 +20,7 @@ holonomic, so the wheels' angles do not tell the orientation.
 # mypyc: runs every tick
 
 from dataclasses import dataclass
-from math import sqrt
+from math import inf, sqrt
 from random import Random
 from typing import Final
 
@@ -55,10 +55,11 @@ def correction_rate(error: Vec3, gain: float, largest: float, acceleration: floa
 
     gain 1/s; largest rad/s; acceleration rad/s^2: with which the rate can fall again.
     """
-    size = norm(error)
-    if size == 0.0:
-        return error
-    return scale(min(gain, largest / size, sqrt(2.0 * acceleration / size)), error)
+    size, near = norm(error), acceleration / (gain * gain) if gain > 0.0 else inf
+    if size <= near:
+        return scale(min(gain, largest / size) if size > 0.0 else 0.0, error)
+    rate = sqrt(2.0 * acceleration * (size - 0.5 * near))
+    return scale(min(rate, largest) / size, error)
 
 
 class AttitudeLoop:
