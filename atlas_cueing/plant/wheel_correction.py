@@ -9,9 +9,11 @@ ends inside the speed limit:
 (the last term is what running down in whole ticks may take more). A schedule that keeps its limits
 thus leaves the correction what room there is, and takes it back when it needs it.
 
-A schedule at its jerk limit lets the acceleration of the correction change in one direction only,
-for up to 2 a_max / J. A correction that accelerates hard then runs past what is wanted and needs
-friction to come back, which a platform that slips does not have; so it takes a small share.
+A schedule at its jerk limit holds the acceleration a of the correction: it can then not fall before
+the schedule is at its other limit, in T = (a_max + alpha) / J for a correction upwards. A loop that
+does not reckon with it swings for ever. So no more is asked for than what such a hold leaves right:
+
+    a = (wanted - speed) / max(T, 1 / rate)
 """
 
 # mypyc: runs every tick
@@ -20,8 +22,8 @@ from math import sqrt
 from typing import Final
 
 _JERK_SHARE: Final = 0.25  # assumed: of the jerk limit that the correction uses for itself
-_RATE: Final = 20.0  # assumed: 1/s, how fast it takes up a new speed; 4 gains: no overshoot
-SHARE: Final = 0.05  # assumed: of the acceleration limit
+_RATE: Final = 20.0  # assumed: 1/s, how fast it takes up a new speed at most
+SHARE: Final = 0.1  # assumed: of the acceleration limit
 
 
 class WheelCorrection:
@@ -45,7 +47,9 @@ class WheelCorrection:
         schedule: its speed and acceleration at the beginning, and acceleration at the end.
         """
         _, most, jerk = self._most
-        aim = max(-self._calm, min(self._calm, _RATE * (wanted - self.speed)))
+        lack = wanted - self.speed
+        held = (most + schedule[1] if lack > 0.0 else most - schedule[1]) / jerk
+        aim = max(-self._calm, min(self._calm, lack / max(held, 1.0 / _RATE)))
         change = _JERK_SHARE * jerk * h
         aim = max(self.acceleration - change, min(self.acceleration + change, aim))
         speed, now = schedule[0] + self.speed, schedule[1] + self.acceleration

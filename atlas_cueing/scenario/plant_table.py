@@ -71,14 +71,14 @@ class PlantTable(ScenarioTable):
         description="assumed: share that is taken for bias, fix_gain^2 / 2 for damping",
     )
     attitude_gain_1_s: Annotated[float, number(0.0, 100.0)] = Field(
-        default=5.0, description="assumed: an error fades in a fifth of a second"
+        default=4.0, description="assumed: an error fades in a quarter of a second"
     )
     correction_rate_rad_s: Annotated[float, number(0.0, 10.0)] = Field(
         default=0.5, description="assumed: the sphere is not corrected faster than that"
     )
     correction_share: Annotated[float, number(0.001, 1.0)] = Field(
-        default=0.05,
-        description="assumed: of the wheels' acceleration limits, for the correction",
+        default=0.1,
+        description="assumed: of the wheels' acceleration limits, gentle for riders",
     )
     step_s: Annotated[float, number(1e-6, 0.01)] = Field(
         default=1e-3, description="numerical; half of it changes no figure that is shown"

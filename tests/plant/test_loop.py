@@ -5,6 +5,7 @@ from random import Random
 import numpy as np
 import pytest
 
+from atlas_cueing.plant.attitude_loop import correction_rate
 from atlas_cueing.plant.attitude_observer import AttitudeObserver
 from atlas_cueing.plant.drive_command import hermite, integral, slope, value
 from atlas_cueing.plant.sensors import AbsoluteFix, PlantGyro
@@ -153,3 +154,71 @@ def test_a_correction_takes_up_what_is_wanted() -> None:
     for _ in range(120):
         correction.step(0.7, (0.0, 0.0, 0.0), H)
     assert correction.speed == pytest.approx(0.7, abs=1e-3)
+
+
+def swung(share: float, gain: float, phase: int) -> np.ndarray:
+    """Error (deg) of a loop beside a schedule that goes from limit to limit at its largest jerk.
+
+    The wheel turns the sphere by a tenth of its own turn; the error begins at 1.4 deg.
+    """
+    speed, acceleration, jerk, ticks = 31.0, 60.0, 600.0, 48
+    correction = WheelCorrection(speed, acceleration, jerk, share)
+    place = (np.arange(1200) + phase) % ticks / ticks
+    schedule = acceleration * (2.0 * np.abs(2.0 * place - 1.0) - 1.0)
+    assert np.abs(np.diff(schedule)).max() / H == pytest.approx(jerk)
+    error, w, errors = np.radians(1.4), 0.0, []
+    for k in range(len(schedule) - 1):
+        before = correction.speed
+        rate = correction_rate((error, 0.0, 0.0), gain, 0.5, 0.1 * share * acceleration)
+        correction.step(10.0 * rate[0], (w, schedule[k], schedule[k + 1]), H)
+        w += 0.5 * H * (schedule[k] + schedule[k + 1])
+        error -= 0.05 * H * (before + correction.speed)
+        errors.append(np.degrees(error))
+    return np.array(errors)
+
+
+@pytest.mark.parametrize("share", [0.05, 0.1, 0.25, 1.0])
+def test_a_schedule_at_its_jerk_limit_makes_no_swing(share: float) -> None:
+    """It holds the correction's acceleration for up to a quarter of its period."""
+    for phase in range(0, 48, 3):
+        errors = swung(share, 4.0, phase)
+        assert errors.min() > -0.4
+        assert np.abs(errors[-200:]).max() < 0.01
+
+
+def test_a_correction_can_stop_where_the_error_ends() -> None:
+    """Along its way to rest the rate never falls faster than it may."""
+    for gain, largest, acceleration in ((5.0, 0.5, 0.3), (1.0, 10.0, 2.0), (100.0, 10.0, 0.1)):
+        errors = np.geomspace(1e-6, np.pi, 4000)
+        rates = np.array(
+            [correction_rate((0.0, x, 0.0), gain, largest, acceleration)[1] for x in errors]
+        )
+        falls = np.diff(rates) / np.diff(errors) * 0.5 * (rates[1:] + rates[:-1])
+        assert falls.max() <= acceleration * 1.01
+        assert rates.max() <= largest
+        assert rates[0] == pytest.approx(gain * errors[0])
+        assert np.diff(rates).min() > -1e-12
+    assert correction_rate((0.0, 0.0, 0.0), 5.0, 0.5, 0.3) == (0.0, 0.0, 0.0)
+    assert correction_rate((0.0, 0.0, 1.0), 0.0, 0.5, 0.3) == (0.0, 0.0, 0.0)
+
+
+def test_first_fixes_find_the_bias_and_late_ones_do_not_shake() -> None:
+    """Against gains that stay: as quick as high ones, in the end as calm as low ones."""
+
+    def errors(bias: float, noise: float, gain: float, first: float) -> np.ndarray:
+        random = Random(5)
+        gyro, fix = PlantGyro(bias, 0.0, random), AbsoluteFix(10.0, noise, 0.02, random)
+        observer = AttitudeObserver(IDENTITY, gain, gain**2 / 2.0, 0.1, 0.12, first)
+        off = []
+        for k in range(1, 120 * 40):
+            observer.turn(k * H, gyro.rate(turning(k - 1), turning(k), H), H)
+            fix.look(k * H, turning(k))
+            for taken, seen in fix.arrived(k * H):
+                observer.take_fix(taken, seen)
+            off.append(np.degrees(geodesic(observer.q_WS, turning(k))))
+        return np.array(off)
+
+    bias, noise = 0.00122, 0.0019
+    assert errors(bias, 0.0, 0.03, 0.2).max() < 0.5 * errors(bias, 0.0, 0.03, 0.0).max()
+    late = [errors(0.0, noise, *gains)[120 * 20 :] for gains in ((0.03, 0.2), (0.2, 0.0))]
+    assert np.mean(late[0] ** 2) < 0.3 * np.mean(late[1] ** 2)
