@@ -7,35 +7,18 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..atomic_file import write_page as write_file
-from ..errors import MissingExtraError, OutputError
 from ..evaluation import DECLARED, Metric, Shown, shown
 from ..evaluation.units import typeset
 from ..printable import html_text
 from .checks.deadlines import is_live
 from .comparison import Comparison
+from .sections import check_plotly, two_columns, write_sections
 from .verdict import Review
 
 if TYPE_CHECKING:
     from plotly.graph_objects import Figure as Plot
 
 _ZOOM = "drag to zoom, double-click to see all"
-_STYLE = """
-body { font-family: system-ui, sans-serif; margin: 1.2em auto; max-width: 1500px; padding: 0 1em;
-color: #1b2733; }
-h1 { font-size: 1.5em; margin: 0.2em 0; } h2 { font-size: 1.15em; margin: 1.4em 0 0.3em; }
-.verdict { display: inline-block; padding: 0.15em 0.7em; border-radius: 0.4em; color: white;
-background: #c00000; }
-.verdict.clean { background: #2e7d32; }
-.columns { display: flex; flex-wrap: wrap; gap: 0 3em; align-items: flex-start; }
-table { border-collapse: collapse; margin: 0.5em 0; }
-td, th { padding: 0.1em 0.9em 0.1em 0; text-align: left; }
-td.number, th { text-align: right; } td.number { font-variant-numeric: tabular-nums; }
-td:first-child { color: #5a6a7a; }
-dl.meanings { max-width: 34em; font-size: 0.9em; color: #5a6a7a; } dt { color: #1b2733; }
-dd { margin: 0 0 0.4em 1em; }
-li.finding { color: #c00000; } details { margin: 0.5em 0; }
-"""
 
 
 def write_page(found: Review, file: str | Path) -> None:
@@ -44,7 +27,7 @@ def write_page(found: Review, file: str | Path) -> None:
     Raises MissingExtraError without plotly and OutputError when the file cannot be written; an old
     one is kept then.
     """
-    _check_plotly()
+    check_plotly()
     from .plots.limit_bars import limit_bars
     from .plots.space import in_space
     from .plots.spectra import spectra
@@ -71,12 +54,12 @@ def write_page(found: Review, file: str | Path) -> None:
         ("Power spectra, summed over the axes", spectra(run)),
         ("Every figure", _every_metric(["value"], [found.metrics])),
     ]
-    _write(file, run.log.metadata.get("scenario", "") or run.log.path.name, sections)
+    write_sections(file, run.log.metadata.get("scenario", "") or run.log.path.name, sections)
 
 
 def write_comparison(comparison: Comparison, file: str | Path) -> None:
     """Write the runs side by side into `file`. Raises as `write_page`."""
-    _check_plotly()
+    check_plotly()
     from .plots.overlays import overlays
 
     runs = [each.run for each in comparison.reviews]
@@ -100,17 +83,7 @@ def write_comparison(comparison: Comparison, file: str | Path) -> None:
             _every_metric(comparison.names, [each.metrics for each in comparison.reviews]),
         ),
     ]
-    _write(file, " against ".join(comparison.names), sections)
-
-
-def _check_plotly() -> None:
-    """Import plotly, which takes half a second. Raises MissingExtraError without it."""
-    try:
-        import plotly.graph_objects  # noqa: F401
-    except ModuleNotFoundError as error:
-        if (error.name or "").partition(".")[0] != "plotly":
-            raise
-        raise MissingExtraError("an HTML page", "plotly", "report") from error
+    write_sections(file, " against ".join(comparison.names), sections)
 
 
 def _punctuality(found: Review) -> "list[tuple[str, Plot]]":
@@ -171,7 +144,7 @@ def _header(found: Review) -> str:
         )
     )
     return (
-        f"<h1>{html_text(title)} {_verdict(found)}</h1><div class='columns'>{_table(rows)}"
+        f"<h1>{html_text(title)} {_verdict(found)}</h1><div class='columns'>{two_columns(rows)}"
         f"{errors}{others}{_meanings([found.metrics])}</div>"
     )
 
@@ -186,14 +159,6 @@ def _findings(found: Review) -> str:
     lines = [f"<li class='finding'>{html_text(str(finding))}</li>" for finding in found.findings]
     lines += [f"<li>{html_text(note)}</li>" for note in found.notes]
     return f"<h2>Findings and notes</h2><ul>{''.join(lines)}</ul>" if lines else ""
-
-
-def _table(rows: Sequence[tuple[str, str]]) -> str:
-    return (
-        "<table>"
-        + "".join(f"<tr><td>{html_text(a)}</td><td>{html_text(b)}</td></tr>" for a, b in rows)
-        + "</table>"
-    )
 
 
 def _every_metric(heads: Sequence[str], columns: Sequence[dict[str, float]]) -> str:
@@ -220,30 +185,3 @@ def _columns(
         head = f"<td title='{html_text(metric.definition)}'>{html_text(typeset(metric.line))}</td>"
         rows.append(f"<tr>{head}{cells}</tr>")
     return f"<table>{''.join(rows)}</table>"
-
-
-def _write(file: str | Path, title: str, sections: "Sequence[tuple[str, str | Plot]]") -> None:
-    from plotly.offline import get_plotlyjs
-
-    pieces = [
-        (
-            "<!doctype html><html lang='en'><head><meta"
-            f" charset='utf-8'><title>{html_text(title)}</title>"
-        ),
-        f"<style>{_STYLE}</style><script>{get_plotlyjs()}</script></head><body>",
-    ]
-    for heading, content in sections:
-        pieces.append(f"<h2>{html_text(heading)}</h2>" if heading else "")
-        pieces.append(content if isinstance(content, str) else _html(content))
-    try:
-        write_file(file, "".join([*pieces, "</body></html>\n"]))
-    except OSError as error:
-        raise OutputError(f"page {file}: {error.strerror}") from error
-
-
-def _html(plot: "Plot") -> str:
-    """One plot as a part of a page that has loaded the script of plotly already."""
-    html: str = plot.to_html(
-        full_html=False, include_plotlyjs=False, config={"displaylogo": False, "responsive": True}
-    )
-    return html

@@ -47,11 +47,25 @@ def test_for_people(command: Command, log: Path) -> None:
     assert not [*log.parent.glob("*.part")]
 
 
+def test_a_page(command: Command, log: Path) -> None:
+    ended = command("plant", log.name, "--feedback", "fix", "--html", "page.html", "--json")
+    assert ended.status == 0
+    assert json.loads(ended.out)["feedback"] == "fix"
+    page = log.with_name("page.html").read_text()
+    assert "<th>none</th><th>fix</th>" in page
+    again = command("plant", log.name, "--html", "page.html")
+    assert (again.status, "exists already" in again.err) == (2, True)
+    assert command("plant", log.name, "--html", "page.html", "--force").status == 0
+    assert "<th></th><th>none</th></tr>" in log.with_name("page.html").read_text()
+
+
 def test_bad_usage_writes_nothing(command: Command, log: Path) -> None:
     for arguments, message in (
         (["missing.mcap", "-o", "new.mcap"], "no such file"),
         ([log.name, "-o", log.name, "--force"], "is a file that is read"),
         ([log.name, "-o", "s.toml"], "exists already"),
+        ([log.name, "--html", log.name, "--force"], "is a file that is read"),
+        ([log.name, "-o", "new.mcap", "--html", "new.mcap"], "new.mcap"),
         ([log.name, "--feedback", "optic", "-o", "new.mcap"], "none, odometry, gyro, fix"),
         ([log.name, "--set", "platform.plant.step_s=1", "-o", "new.mcap"], "platform.plant.step_s"),
         ([log.name, "--set", "cueing.method=still", "-o", "new.mcap"], "platform.plant.KEY"),

@@ -1,4 +1,4 @@
-"""Rides on the simulated platform: each flown once, then its schedule once for every feedback."""
+"""Rides on the simulated platform: each is flown, and then its schedule by one kind of loop."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -26,30 +26,39 @@ END, LARGEST = 0.1, 1.0  # deg, what is asked for
 
 @dataclass(frozen=True)
 class PlantOrder(Order):
-    """A ride, and the kinds of loop that fly it on the plant."""
+    """A ride by a method of cueing, and the kind of loop that flies it on the plant."""
 
-    kinds: tuple[Kind, ...] = ()
+    method: str
+    kind: Kind
+
+    @property
+    def words(self) -> str:
+        """What is flown, for people."""
+        feedback, latency = self.kind
+        late = "" if latency is None else f", {1e3 * latency:g} ms"
+        return f"{self.scenario.stem}, {self.method}: {feedback}{late}"
 
     def code(self) -> bytes:
         """What else the figures depend on."""
-        return super().code() + repr(self.kinds).encode()
+        return super().code() + repr((self.method, self.kind)).encode()
 
 
 def fly_on_plant(order: PlantOrder) -> dict[str, Any]:
-    """Fly the ride, then the plant by each kind; logs are thrown away, an error is the reason."""
+    """Fly the ride, then the plant; the log is thrown away, an error is the reason."""
     from atlas_cueing.errors import AtlasError
     from atlas_cueing.run import run_scenario
     from atlas_cueing.scenario import load_scenario
 
     with TemporaryDirectory() as folder:
         try:
-            scenario = load_scenario(order.scenario, order.settings)
+            settings = (f"cueing.method={order.method}", *order.settings)
+            scenario = load_scenario(order.scenario, settings)
             ride = run_scenario(scenario, Path(folder) / "ride.mcap")
-            rows = [_flown(ride.log, kind) for kind in order.kinds]
+            figures = _flown(ride.log, order.kind)
         except AtlasError as error:
             return {"result": "refused", "reason": str(error), "violations": []}
     told = ride.to_json()
-    return {name: told[name] for name in ("result", "reason", "violations")} | {"rows": rows}
+    return {name: told[name] for name in ("result", "reason", "violations")} | {"figures": figures}
 
 
 def _flown(log: Path, kind: Kind) -> list[float]:
@@ -64,12 +73,12 @@ def _flown(log: Path, kind: Kind) -> list[float]:
     return [figures[name] for name in FIGURES]
 
 
-def table(rides: Mapping[PlantOrder, Mapping[str, Any]], methods: Sequence[str]) -> list[tuple]:
-    """Rows of COLUMNS, by flight, method and kind, of the rides that were flown."""
+def table(rides: Mapping[PlantOrder, Mapping[str, Any]]) -> list[tuple]:
+    """Rows of COLUMNS of the rides that were flown."""
     return [
-        (order.scenario.stem, method, *kind, *row)
-        for (order, ride), method in zip(rides.items(), methods, strict=True)
-        for kind, row in zip(order.kinds, ride.get("rows", ()), strict=False)
+        (order.scenario.stem, order.method, *order.kind, *ride["figures"])
+        for order, ride in rides.items()
+        if "figures" in ride
     ]
 
 
@@ -94,7 +103,7 @@ def _cells(flights: Mapping[str, Sequence[float]], opened: Mapping[str, Sequence
     """Figures of all flights of one kind; `opened`: of the open loop."""
     ends, largest, slips, residuals, throughputs = zip(*flights.values(), strict=True)
     worse = sum(f[1] > LARGEST and f[1] > opened[k][1] for k, f in flights.items() if k in opened)
-    balance = max(abs(a) / b for a, b in zip(residuals, throughputs, strict=True))
+    balance = max(abs(a) / max(b, 1.0) for a, b in zip(residuals, throughputs, strict=True))
     return [
         str(len(flights)),
         *(f"{median(ends):.3f}", f"{max(ends):.3f}", str(sum(x > END for x in ends))),
