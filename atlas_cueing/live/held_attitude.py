@@ -26,7 +26,12 @@ def held_attitude(
         return None
     t, wheels = platform.plant or PlantTable(), Wheels(platform.geometry())
     estimate = EstimateSettings(
-        feedback == "fix", t.fix_gain, t.fix_bias_gain, t.fix_rate_hz, 1.0 + t.fix_latency_s
+        feedback == "fix",
+        t.fix_gain,
+        t.fix_bias_gain,
+        t.fix_rate_hz,
+        1.0 + t.fix_latency_s,
+        t.first_fix_gain,
     )
     return AttitudeCorrection(
         CorrectionSettings(t.attitude_gain_1_s, t.correction_rate_rad_s, estimate),

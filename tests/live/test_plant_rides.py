@@ -22,6 +22,7 @@ def moving(ride: PlantRide) -> np.ndarray:
 @pytest.mark.parametrize(("rate", "lead"), [(100.0, 0.06), (250.0, 0.02)])
 def test_a_fix_holds_what_creep_turns_away(rate: float, lead: float) -> None:
     quiet = {"fix_noise_rad": 0.0, "gyro_noise_rad_sqrt_s": 0.0}
+    quiet |= {"first_fix_gain": 0.0, "fix_gain": 0.08, "fix_bias_gain": 0.0032}  # settles in 8 s
     open_loop = PlantRide("none", rate, lead=lead, **quiet)
     closed = PlantRide("fix", rate, lead=lead, **quiet)
     for ride in (open_loop, closed):

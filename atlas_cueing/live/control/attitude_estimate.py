@@ -29,7 +29,7 @@ class EstimateSettings:
 
     uses_fix: fixes are believed, not the gyro alone.
     fix_gain, fix_bias_gain: shares of a fix, 0 to 1. fix_rate: expected, Hz.
-    memory: longest age of a fix that is used, s.
+    memory: longest age of a fix that is used, s. first_fix_gain: of the first, which counts more.
     """
 
     uses_fix: bool
@@ -37,6 +37,7 @@ class EstimateSettings:
     fix_bias_gain: float
     fix_rate: float
     memory: float = 1.0
+    first_fix_gain: float = 0.0
 
 
 class AttitudeEstimate:
@@ -52,7 +53,7 @@ class AttitudeEstimate:
         s = settings
         self._uses_fix: Final[bool] = s.uses_fix
         self._observer: Final[AttitudeObserver] = AttitudeObserver(
-            q_WS, s.fix_gain, s.fix_bias_gain, 1.0 / s.fix_rate, s.memory
+            q_WS, s.fix_gain, s.fix_bias_gain, 1.0 / s.fix_rate, s.memory, s.first_fix_gain
         )
         self.q_WS = q_WS
         self.fixes = self.fixes_refused = 0
