@@ -11,7 +11,7 @@ thus leaves the correction what room there is, and takes it back when it needs i
 
 A schedule at its jerk limit holds the acceleration a of the correction: it can then not fall before
 the schedule is at its other limit, in T = (a_max + alpha) / J for a correction upwards. A loop that
-does not reckon with it swings for ever. So no more is asked for than what such a hold leaves right:
+does not reckon with it swings. So no more is asked for than what such a hold leaves right:
 
     a = (wanted - speed) / max(T, 1 / rate)
 """
