@@ -10,13 +10,17 @@ from .control.attitude_estimate import LIVE_FEEDBACKS, EstimateSettings
 from .control.certified_axis import six_axes
 from .control.pose import Pose
 
+_MOST_FIXES = 50.0  # Hz; a status tells one
+_MOST_LATE = 5.0  # fixes on their way that the gains are meant for (assumed)
+
 
 def held_attitude(
     platform: Platform, feedback: str, dt: float, pose: Pose
 ) -> AttitudeCorrection | None:
     """Return the correction by this feedback; None for none. dt: tick, s. pose: at the start.
 
-    Gains are those of the platform's `[plant]`.
+    Gains are those of the platform's `[plant]`; where more than five fixes are on their way at a
+    time, each is believed less, or the estimate of the gyro's bias swings (30 are too many).
 
     Raises InputError for another feedback.
     """
@@ -25,16 +29,20 @@ def held_attitude(
     if feedback == "none":
         return None
     t, wheels = platform.plant or PlantTable(), Wheels(platform.geometry())
+    rate = min(t.fix_rate_hz, _MOST_FIXES)
+    calm = min(1.0, _MOST_LATE / (rate * t.fix_latency_s)) if t.fix_latency_s > 0.0 else 1.0
     estimate = EstimateSettings(
         feedback == "fix",
-        t.fix_gain,
-        t.fix_bias_gain,
-        t.fix_rate_hz,
+        calm * t.fix_gain,
+        calm * calm * t.fix_bias_gain,
+        rate,
         1.0 + t.fix_latency_s,
-        t.first_fix_gain,
+        calm * t.first_fix_gain,
     )
     return AttitudeCorrection(
-        CorrectionSettings(t.attitude_gain_1_s, t.correction_rate_rad_s, estimate),
+        CorrectionSettings(
+            t.attitude_gain_1_s, t.correction_rate_rad_s, t.correction_share, estimate
+        ),
         (wheels.sphere_from_wheels, wheels.wheels_from_sphere),
         six_axes(dt, platform.wheel_limit_values(), platform.stage_limit_values()),
         dt,

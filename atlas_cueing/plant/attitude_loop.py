@@ -26,8 +26,9 @@ from typing import Final
 
 from ..rotation import Mat3, Quat, Vec3, apply, conjugate, exp, log, multiply, norm, rotate, scale
 from .attitude_observer import AttitudeObserver
+from .bounded_sum import SHARE
 from .sensors import AbsoluteFix, PlantGyro
-from .wheel_correction import SHARE, WheelCorrection
+from .wheel_correction import WheelCorrection
 
 FEEDBACKS = ("none", "odometry", "gyro", "fix")
 
@@ -60,6 +61,11 @@ def correction_rate(error: Vec3, gain: float, largest: float, acceleration: floa
         return scale(min(gain, largest / size) if size > 0.0 else 0.0, error)
     rate = sqrt(2.0 * acceleration * (size - 0.5 * near))
     return scale(min(rate, largest) / size, error)
+
+
+def sphere_acceleration(wheels_from_sphere: Mat3, acceleration: Vec3) -> float:
+    """Angular acceleration, rad/s^2, that wheels of such limits reach about any axis."""
+    return min(acceleration[i] / norm(wheels_from_sphere[i]) for i in range(3))
 
 
 class AttitudeLoop:
@@ -97,9 +103,8 @@ class AttitudeLoop:
         self.corrections: Final[list[WheelCorrection]] = [
             WheelCorrection(speed[i], acceleration[i], jerk[i], s.share) for i in range(3)
         ]
-        rows = self._wheels_from_sphere
-        self._acceleration: Final[float] = min(
-            s.share * acceleration[i] / norm(rows[i]) for i in range(3)
+        self._acceleration: Final[float] = s.share * sphere_acceleration(
+            self._wheels_from_sphere, acceleration
         )
 
     def measure(self, time: float, q_WS: Quat, wheel_angles: Vec3, dt: float) -> None:

@@ -3,7 +3,9 @@
 A drive follows angle, speed and acceleration; the inertia of wheel and sphere that is felt by all
 three is given ahead as torque, as drives do that are told an acceleration:
 
-    tau = (J^T R I R^T J + J_w) a,   R of the sphere, I about its centre of mass, J_w of a wheel
+    tau = (J^T R I R^T J + J_w) a,   R of the sphere, I about its centre, J_w of a wheel
+
+What an eccentric mass, gyroscopic moments and the stage take is left to the servos.
 """
 
 from collections.abc import Sequence
@@ -71,7 +73,9 @@ class RealTimePlant:
         self._inverse = plant.wheels_from_sphere
         J = np.linalg.inv(self._inverse).astype(np.float64)
         self._J, self._J_transposed = _matrix(J), _matrix(J.T)
-        self._inertia, self._wheel_inertia = plant.body.inertia_S, plant.servo.inertia
+        m, c = plant.body.mass, np.array(plant.body.com_S)
+        about_centre = np.array(plant.body.inertia_S) + m * (c @ c * np.eye(3) - np.outer(c, c))
+        self._inertia, self._wheel_inertia = _matrix(about_centre), plant.servo.inertia
         self._angle_before = self._sphere.wheel_angles()
         one, two, three = axes[:3]
         self._zero = subtract(self._angle_before, (one[0], two[0], three[0]))

@@ -47,7 +47,8 @@ class RecordedRun:
         for wheel in self.platform.wheel:
             contact = np.array(wheel.contact) / np.linalg.norm(wheel.contact)
             drive = np.array(wheel.drive) - np.dot(wheel.drive, contact) * contact
-            rows.append(radius / wheel.radius_m * np.cross(contact, drive / np.linalg.norm(drive)))
+            effective = wheel.radius_m * np.cos(np.radians(wheel.roller_deg or 0.0))
+            rows.append(radius / effective * np.cross(contact, drive / np.linalg.norm(drive)))
         return np.array(rows)
 
     def sphere_from_wheels(self) -> Array:

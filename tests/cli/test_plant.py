@@ -97,6 +97,7 @@ def altered(log: Path, topic: str, field: str, value: float, row: int = 30) -> R
     [
         ("/correction", "w2_rad_s", 40.0, "/wheels + /correction w2_rad_s: limit"),
         ("/correction", "a1_rad_s2", -130.0, "/wheels + /correction a1_rad_s2: limit"),
+        ("/correction", "a1_rad_s2", 20.0, "/wheels + /correction a1_rad_s2: jerk"),
         ("/plant", "q_ws_w", 50.0, "/plant q_ws: length"),
         ("/plant", "error_rad", 0.5, "/plant error_rad: error"),
     ],
@@ -105,7 +106,8 @@ def test_a_review_finds_what_cannot_be(
     corrected: Path, topic: str, field: str, value: float, told: str
 ) -> None:
     found = judge(altered(corrected, topic, field, value)).findings
-    assert [told in str(finding) for finding in found] == [True]
+    assert told in str(found[0])
+    assert all(topic in finding.place for finding in found)
     assert not judge(open_run(corrected)).findings
 
 

@@ -49,7 +49,8 @@ def test_the_gyro_alone_drifts_by_its_bias() -> None:
 
 
 def test_schedule_and_correction_keep_the_limits_together() -> None:
-    ride = PlantRide("fix", fix_noise_rad=0.1, attitude_gain_1_s=50.0, correction_rate_rad_s=5.0)
+    hard = {"attitude_gain_1_s": 50.0, "correction_rate_rad_s": 5.0, "correction_share": 1.0}
+    ride = PlantRide("fix", fix_noise_rad=0.03, fix_gain=0.5, **hard)
     limits, h = ride.rig.wheel_limits, ride.rig.dt
     speed, acceleration = ride.sums[:, 0], ride.sums[:, 1]
     added = speed - np.array([t.wheels.speed for t in ride.rig.tape.ticks])

@@ -4,10 +4,11 @@ Wheels slip and creep, and rolling is not holonomic: wheel angles do not tell th
 estimate q_hat(t_s) (`attitude_estimate`) is of the time t_s of the newest status. A set point made
 now is due later, at t_d, and what was added between is on its way already:
 
-    e = log(q_ref(t_s) q_hat(t_s)^-1) - J (c(t_d) - c(t_s))    in W, of the schedule q_ref
-    Omega_c = K e, |Omega_c| <= limit,   wheels: J^-1 Omega_c
+    e_S = log(q_hat(t_s)^-1 q_ref(t_s)) - sum over (t_s, t_d] of R_ref^T J dc
+    Omega_c = R_ref(t_d) K e_S, less far away (`attitude_loop`),   wheels: J^-1 Omega_c
 
-with c the correction of the wheels' angles, so that the delay does not make the loop ring. The
+with q_ref the schedule, and dc what a tick adds to the wheels' angles; so the delay does not make
+the loop ring. An error turns with the sphere, and is constant in axes S of the schedule. The
 angles, speeds and accelerations sent are schedule + correction (`corrected_wheel`), inside the
 platform's limits together; the schedule itself is not changed by it.
 
@@ -26,6 +27,7 @@ from dataclasses import dataclass
 from math import degrees, inf
 from typing import Final
 
+from ...plant.attitude_loop import correction_rate, sphere_acceleration
 from ...rotation import (
     ZERO,
     Mat3,
@@ -38,6 +40,7 @@ from ...rotation import (
     log,
     multiply,
     norm,
+    rotate,
     scale,
     subtract,
 )
@@ -53,26 +56,35 @@ _KEPT: Final = 1024  # ticks: a second at 1 kHz
 
 @dataclass(frozen=True, slots=True)
 class CorrectionSettings:
-    """gain: of the correction, 1/s. largest_rate: of the sphere by the correction, rad/s."""
+    """How errors are taken away.
+
+    gain: of the correction, 1/s. largest_rate: of the sphere by the correction, rad/s.
+    share: of the wheels' acceleration limits that the correction uses for itself.
+    """
 
     gain: float
     largest_rate: float
+    share: float
     estimate: EstimateSettings
 
 
 @dataclass(frozen=True, slots=True)
 class _Sent:
-    """A tick that was sent: when it is due (ns), the schedule's orientation, the correction."""
+    """A tick that was sent.
+
+    due: ns. q_WS: the schedule's orientation. added_S: rotation vector, axes S of the schedule, of
+    all that was added up to then.
+    """
 
     due: int
     q_WS: Quat
-    correction: Vec3
+    added_S: Vec3
 
 
 class AttitudeCorrection:
     """Estimate and correction of one ride.
 
-    error: between estimate and schedule of the same time, rad, at the newest status.
+    error: angle between estimate and schedule of the same time, rad, at the newest status.
     correction: of the angle of each wheel in the last command, rad.
     """
 
@@ -93,14 +105,19 @@ class AttitudeCorrection:
         self._J: Final[Mat3] = matrices[0]
         self._J_inverse: Final[Mat3] = matrices[1]
         self._wheels: Final[list[CorrectedWheel]] = [
-            CorrectedWheel(limits, dt, angle)
+            CorrectedWheel(limits, dt, angle, settings.share)
             for limits, angle in zip(axes[:3], pose.wheel_angle, strict=True)
         ]
+        one, two, three = axes[:3]
+        most = one.acceleration, two.acceleration, three.acceleration
+        self._acceleration: Final[float] = settings.share * sphere_acceleration(matrices[1], most)
         self._schedule: list[Vec3] = [(angle, 0.0, 0.0) for angle in pose.wheel_angle]
         self._estimate: Final[AttitudeEstimate] = AttitudeEstimate(settings.estimate, pose.q_WS)
         self._sent: deque[_Sent] = deque(maxlen=_KEPT)
-        self._seen_error: Vec3 = ZERO
-        self._seen_correction: Vec3 = ZERO
+        self._q_WS = pose.q_WS  # of the schedule, with the last command
+        self._added_S: Vec3 = ZERO
+        self._seen_error_S: Vec3 = ZERO
+        self._seen_added_S: Vec3 = ZERO
         self._stands = True  # the schedule, with the last command
         self._breach = ""  # of a limit by the sum
         self._origin = 0.0  # s, time of the run when the clock shows 0
@@ -170,8 +187,11 @@ class AttitudeCorrection:
         self._schedule = schedule
         one, two, three = self._wheels
         angle = (one.state[0], two.state[0], three.state[0])
-        self.correction = subtract(angle, command.wheel_angle)
-        self._sent.append(_Sent(due, q_WS, self.correction))
+        correction = subtract(angle, command.wheel_angle)
+        turn_W = apply(self._J, subtract(correction, self.correction))
+        self.correction, self._q_WS = correction, q_WS
+        self._added_S = add(self._added_S, rotate(conjugate(q_WS), turn_W))
+        self._sent.append(_Sent(due, q_WS, self._added_S))
         self._origin = command.time - 1e-9 * due
         self._note_rate()
         return command_from(command.time, [one.state, two.state, three.state, *axes[3:]])
@@ -192,21 +212,19 @@ class AttitudeCorrection:
         """Return the speeds of the correction, rad/s."""
         if self.trouble:
             return ZERO
-        on_its_way = subtract(self.correction, self._seen_correction)
-        rate = scale(self._settings.gain, subtract(self._seen_error, apply(self._J, on_its_way)))
-        size, most = norm(rate), self._settings.largest_rate
-        if size > most:
-            rate = scale(most / size, rate)
-        return apply(self._J_inverse, rate)
+        on_its_way = subtract(self._added_S, self._seen_added_S)
+        error, s = subtract(self._seen_error_S, on_its_way), self._settings
+        rate_S = correction_rate(error, s.gain, s.largest_rate, self._acceleration)
+        return apply(self._J_inverse, rotate(self._q_WS, rate_S))
 
     def _compare(self, time: int) -> None:
         """Hold the estimate against the schedule of the same time (ns)."""
         sent = self._sent
         while len(sent) > 1 and sent[1].due <= time:
             sent.popleft()
-        q_WS, self._seen_correction = _at(sent, time)
-        self._seen_error = log(multiply(q_WS, conjugate(self._estimate.q_WS)))
-        self.error = norm(self._seen_error)
+        q_WS, self._seen_added_S = _at(sent, time)
+        self._seen_error_S = log(multiply(conjugate(self._estimate.q_WS), q_WS))
+        self.error = norm(self._seen_error_S)
         if not self.standing:
             self._largest_error = max(self._largest_error, self.error)
 
@@ -218,12 +236,12 @@ class AttitudeCorrection:
 
 
 def _at(sent: Sequence[_Sent], time: int) -> tuple[Quat, Vec3]:
-    """Return orientation and correction of the schedule at `time` (ns), between two ticks."""
+    """Return orientation and what was added at `time` (ns), between two ticks."""
     one = sent[0]
     if len(sent) < 2 or time <= one.due:
-        return one.q_WS, one.correction
+        return one.q_WS, one.added_S
     other = sent[1]
     share = min((time - one.due) / (other.due - one.due), 1.0)
     turn = log(multiply(conjugate(one.q_WS), other.q_WS))
-    added = scale(share, subtract(other.correction, one.correction))
-    return multiply(one.q_WS, exp(scale(share, turn))), add(one.correction, added)
+    added = scale(share, subtract(other.added_S, one.added_S))
+    return multiply(one.q_WS, exp(scale(share, turn))), add(one.added_S, added)

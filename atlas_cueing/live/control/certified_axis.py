@@ -74,7 +74,8 @@ class AxisLimits:
         self, h: float, p0: float, v0: float, a0: float, p: float, v: float, a: float
     ) -> Checks:
         """Return the checks from p0, v0, a0 to p, v, a, h s later, if v and a are fit."""
-        end, blur = self.travel, 4.0 * ulp(p0 if isinf(self.travel) else self.travel)
+        largest = abs(p0) + self.speed * h if isinf(self.travel) else self.travel
+        end, blur = self.travel, 4.0 * ulp(largest)
         way, sag = self.speed * h + blur, 0.5 * self.acceleration * h * h + blur
         old, new = p0 + h * v0, p0 + h * v
         low, high = self.reachable(h, p0, v0, a0, v, a)

@@ -1,31 +1,24 @@
 """One wheel of a platform whose attitude is corrected: its schedule and what is added to it.
 
-What moves is the SUM, so the sum has to keep the wheel's limits. Its acceleration is chosen first:
-
-    a' = a_s' + a_c',   |a' - a| <= J h,  |a'| <= A,
-    v + h (a + a') / 2 + a'^2 / (2 J) <= V - J h^2 / 8
-
-with a_c' the correction's own, as far as the sum allows: running down at the jerk J ends inside the
-speed V (the last term is what running down in whole ticks may take more). Then the correction moves
-with a constant jerk beside the schedule, if the inequalities of `guard` hold for the sum. Where
-they do not, since the schedule's own jerk changes within the tick, the sum itself moves with one:
+What moves is the SUM, so the sum keeps the wheel's limits. Its acceleration a' is chosen first
+(`plant.bounded_sum`). Then the correction moves with a constant jerk beside the schedule, if the
+inequalities of `guard` hold for the sum. Where they do not, since the schedule's own jerk changes
+within the tick, the sum itself moves with one:
 
     v' = v + h (a + a') / 2,   theta' = theta + h v + h^2 (2 a + a') / 6
 
-which always passes them. A sum that has nothing to follow flies the certified stop.
+which always passes them. A sum that has nothing to follow flies the certified stop. Limits hold at
+the ticks; between them a drive may bend by what `guard` allows to any command.
 """
 
 # mypyc: runs every tick
 
-from math import sqrt
 from typing import Final
 
+from ...plant.bounded_sum import SHARE, BoundedSum
 from ...rotation import Vec3
 from .certified_axis import AxisLimits, CertifiedStop
 from .guard import breach_of
-
-_SHARE: Final = 0.25  # assumed: of acceleration and jerk that the correction uses for itself
-_RATE: Final = 10.0  # assumed: 1/s, how fast it takes up a new speed
 
 
 class CorrectedWheel:
@@ -35,9 +28,12 @@ class CorrectedWheel:
     standing: whether it is at rest.
     """
 
-    def __init__(self, limits: AxisLimits, dt: float, angle: float) -> None:
-        """Stand at `angle` (rad); tick dt in s."""
+    def __init__(self, limits: AxisLimits, dt: float, angle: float, share: float = SHARE) -> None:
+        """Stand at `angle` (rad); tick dt in s; share of the acceleration for the correction."""
         self._limits: Final[AxisLimits] = limits
+        self._sum: Final[BoundedSum] = BoundedSum(
+            limits.speed, limits.acceleration, limits.jerk, share
+        )
         self._dt: Final[float] = dt
         self.state: Vec3 = (angle, 0.0, 0.0)
         self._stop: CertifiedStop | None = None
@@ -58,7 +54,8 @@ class CorrectedWheel:
         """
         self._stop = None
         h, (p, v, a) = self._dt, self.state
-        new = self._acceleration(before, after, wanted)
+        schedule = before[1], before[2], after[2]
+        new = self._sum.acceleration((v, a), schedule, wanted, h)
         own, own_after = a - before[2], new - after[2]
         beside = (
             after[0] + p - before[0] + _gain(h, v - before[1], own, own_after),
@@ -84,19 +81,6 @@ class CorrectedWheel:
         self._ticks += 1
         self.state = self._stop.at(self._ticks * self._dt)
 
-    def _acceleration(self, before: Vec3, after: Vec3, wanted: float) -> float:
-        """The sum's acceleration at the end of the tick."""
-        h, (_, v, a) = self._dt, self.state
-        jerk, most = self._limits.jerk, self._limits.acceleration
-        calm, change = _SHARE * most, _SHARE * jerk * h
-        aim = max(-calm, min(calm, _RATE * (wanted - (v - before[1]))))
-        own = a - before[2]
-        aim = max(own - change, min(own + change, aim))
-        lowest, highest = max(-most, a - jerk * h), min(most, a + jerk * h)
-        highest = max(lowest, min(highest, self._allowed(v, a)))
-        lowest = min(highest, max(lowest, -self._allowed(-v, -a)))
-        return max(lowest, min(highest, after[2] + aim))
-
     def _breach(self, state: Vec3) -> str:
         """What of a state is not fit to be the next; empty when it is."""
         limits, h, (p0, v0, a0), (p, v, a) = self._limits, self._dt, self.state, state
@@ -105,15 +89,6 @@ class CorrectedWheel:
             (limits.name, limits.place_checks(h, p0, v0, a0, p, v, a)),
         )
         return breach_of(checks)
-
-    def _allowed(self, speed: float, now: float) -> float:
-        """The largest acceleration at the end of the tick from which the speed limit is kept."""
-        h, jerk = self._dt, self._limits.jerk
-        room = self._limits.speed - speed - 0.5 * h * now - jerk * h * h / 8.0
-        if room < 0.0:
-            return 2.0 * room / h
-        half = 0.5 * jerk * h
-        return sqrt(half * half + 2.0 * jerk * room) - half
 
 
 def _gain(h: float, v: float, a: float, after: float) -> float:

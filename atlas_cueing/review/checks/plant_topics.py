@@ -15,7 +15,7 @@ PLANT, CORRECTION, ESTIMATE = "/plant", "/correction", "/estimate"
 _LENGTH = 1e-6  # of a quaternion less 1
 _LIMIT = 1e-6  # of a limit, as for the schedule
 _ANGLE = 1e-6  # rad: of the error that is logged
-_BETWEEN = 1e-3  # rad: of one that is between two ticks; the chord of 2 rad/s in 20 ms is 2e-4 off
+_BETWEEN = 1e-3  # rad: of one that is between two ticks
 
 
 def check_plant(run: RecordedRun) -> list[Finding]:
@@ -49,6 +49,9 @@ def _limits(run: RecordedRun) -> list[Finding]:
         added = [run.log.column(CORRECTION, f"{name}{i}_{unit}")[:count] for i in (1, 2, 3)]
         both = schedule[:count] + np.column_stack(added)
         found += exceeding("limit", places, time, both, _allowed(limit), shown)
+    steps = np.diff(both, axis=0) / np.diff(time)[:, None]  # of the accelerations
+    places = [f"/wheels + {CORRECTION} a{i}_rad_s2" for i in (1, 2, 3)]
+    found += exceeding("jerk", places, time[1:], steps, _allowed(limits.jerk), "rad/s3")
     return found
 
 
@@ -59,11 +62,13 @@ def _estimate(run: RecordedRun) -> list[Finding]:
     count = min(len(flight.time), len(q))
     time, seen = flight.time[:count], log.column(ESTIMATE, "seen_s")[:count]
     known = (seen >= flight.time[0]) & (seen <= time)
-    R = to_matrix(flight.motion_q_WS)
     at = np.clip(np.searchsorted(flight.time, seen, side="right") - 1, 0, len(flight.time) - 2)
     share = (seen - flight.time[at]) / (flight.time[at + 1] - flight.time[at])
-    wanted = R[at] + np.clip(share, 0.0, 1.0)[:, None, None] * (R[at + 1] - R[at])
-    apart = np.linalg.norm(to_matrix(q[:count]) - wanted, axis=(1, 2)) / np.sqrt(8.0)
+    one, other = flight.motion_q_WS[at], flight.motion_q_WS[at + 1]
+    other = np.where(np.sum(one * other, axis=1)[:, None] < 0.0, -other, other)
+    wanted = one + np.clip(share, 0.0, 1.0)[:, None] * (other - one)
+    wanted /= np.linalg.norm(wanted, axis=1)[:, None]
+    apart = np.linalg.norm(to_matrix(q[:count]) - to_matrix(wanted), axis=(1, 2)) / np.sqrt(8.0)
     angle = 2.0 * np.arcsin(np.minimum(apart, 1.0))
     off = np.where(known, angle - log.column(ESTIMATE, "error_rad")[:count], 0.0)
     places = [f"{ESTIMATE} error_rad"]

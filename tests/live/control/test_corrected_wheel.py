@@ -37,7 +37,8 @@ def steady(dt: float, seed: int) -> Iterator[State]:
 
 def flown(dt: float, seed: int, ticks: int, rests: bool = True) -> np.ndarray:
     """The sum, as its states, over a wild schedule with wild corrections."""
-    wheel = CorrectedWheel(AxisLimits("wheel", dt, SPEED, ACCELERATION, JERK), dt, 0.0)
+    share = (0.1, 1.0)[seed // 10 % 2]
+    wheel = CorrectedWheel(AxisLimits("wheel", dt, SPEED, ACCELERATION, JERK), dt, 0.0, share)
     random, before, kept = Random(seed + 1), (0.0, 0.0, 0.0), [(0.0, 0.0, 0.0)]
     stopping, schedule = 0, wild(dt, seed)
     wanted = 0.0
@@ -102,3 +103,19 @@ def test_it_comes_to_rest_exactly() -> None:
         wheel.stop()
     assert wheel.standing
     assert wheel.state[1:] == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("h", [0.001, 0.002, 0.01])
+def test_a_wheel_that_passes_its_zero_is_not_stopped(h: float) -> None:
+    """There a position is rounded more coarsely than the one before it."""
+    random = Random(5)
+    for _ in range(300):
+        wheel = CorrectedWheel(AxisLimits("wheel", h, SPEED, ACCELERATION, JERK), h, 0.0)
+        speed = random.uniform(-20.0, 20.0)
+        p, v, a = random.uniform(-2.0, 2.0) * h * speed, speed, ACCELERATION
+        wheel.state = (p, v, a)
+        before = (p, v - 1.0, a)
+        for _ in range(6):
+            after = (before[0] + h * before[1] + 0.5 * h * h * a, before[1] + h * a, a)
+            assert wheel.follow(before, after, random.uniform(-9.0, 9.0)) == ""
+            before = after
