@@ -56,7 +56,9 @@ class PlantProcess:
 
     def finish(self) -> Array:
         """End it; return the rows of `PlantDrives`, none if it has died, and on a second call."""
-        self._process.finish(_FINISH_S)
+        ended = self._process.finish(_FINISH_S)
+        if ended.status:
+            report_on_stderr(f"the simulated platform has died, with {ended.status}: no /plant")
         with self._folder:
             return np.load(self._file) if self._file.exists() else np.empty((0, 0))
 

@@ -146,7 +146,7 @@ ESTIMATE = Topic(
 )
 """Live runs that correct the attitude, once a tick: where the cabin was at `seen_s`, the time of
 the run at the newest status of the drives, how far that is from /motion of the same moment, and the
-age of the newest fix then (-1 before the first)."""
+age of the newest fix then (-1 before the first; `seen_s` as well)."""
 
 ALL_TOPICS = (*LIVE_TOPICS, LOADS, PLANT, CORRECTION, ESTIMATE)
 """Whatever topic of flat doubles a log may hold."""

@@ -28,6 +28,7 @@ class PlantRide:
     """
 
     session = 7
+    refusal = ""
 
     def __init__(
         self,

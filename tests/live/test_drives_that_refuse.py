@@ -27,6 +27,7 @@ class RefusingDrives:
     followed: int
     state: str
     session = 7
+    refusal = ""
     said = 0
 
     def statuses(self) -> Sequence[DriveStatus]:

@@ -157,3 +157,16 @@ def test_it_does_not_set_out_before_it_has_a_fix() -> None:
     assert not any(moving(ride))
     assert ride.rig.monitor is not None
     assert "no fix of the cabin" in ride.rig.monitor.trouble
+
+
+def test_a_gyro_that_freezes_is_not_followed_for_long() -> None:
+    kept: list[CabinSensors] = []
+
+    def sensed(at: int, sensors: CabinSensors) -> CabinSensors:
+        kept[:] = kept if at > 250 and kept else [sensors]
+        return kept[0]
+
+    ride = PlantRide("gyro", sensed=sensed, seconds=20.0)
+    assert "deg from its schedule, allowed: 30 deg" in ride.rig.controller.outcome.reason
+    assert ride.error.max() < 45.0
+    assert not ride.sums[-1].any()

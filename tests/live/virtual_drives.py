@@ -33,6 +33,7 @@ class VirtualDrives:
     """
 
     session = 7
+    refusal = ""
 
     def __init__(self, killed: int | None = None, looks: int = 5) -> None:
         self._killed, self._looks = killed, looks

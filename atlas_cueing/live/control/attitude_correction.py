@@ -15,8 +15,8 @@ platform's limits together; the schedule itself is not changed by it.
 Nothing is corrected while the schedule stands: at rest nothing moves. In a fault the sum flies the
 certified stop from its own last set point, as the drives do, and the correction is what remains
 beside the schedule's own. While the platform moves, a gyro that falls silent is a fault, and so are
-fixes that contradict it; without fixes nothing more is corrected. At rest each of the three is a
-reason not to set out.
+fixes that contradict it, and a cabin that is lost; without fixes nothing more is corrected. At rest
+each of them is a reason not to set out.
 """
 
 # mypyc: runs every tick
@@ -24,7 +24,7 @@ reason not to set out.
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import degrees, inf
+from math import degrees, inf, radians
 from typing import Final
 
 from ...plant.attitude_loop import correction_rate, sphere_acceleration
@@ -51,6 +51,7 @@ from .corrected_wheel import CorrectedWheel
 from .drive_status import DriveStatus
 from .pose import Pose
 
+MOST_ERROR: Final = radians(30.0)  # of the cabin, by slip or by a sensor that fails (assumed)
 _KEPT: Final = 1024  # ticks: a second at 1 kHz
 
 
@@ -133,12 +134,17 @@ class AttitudeCorrection:
     @property
     def fault(self) -> str:
         """Why a platform that moves has to stop; empty otherwise."""
+        if self.error > MOST_ERROR:
+            return (
+                f"by its sensors the cabin is {degrees(self.error):.1f} deg from its schedule,"
+                f" allowed: {degrees(MOST_ERROR):.0f} deg"
+            )
         return self._breach or self._estimate.fault
 
     @property
     def trouble(self) -> str:
         """Why nothing is corrected; empty when it is."""
-        return self._breach or self._estimate.trouble
+        return self.fault or self._estimate.trouble
 
     def figures(self) -> dict[str, float]:
         """Return what was seen and done, by name, the unit in the name."""
@@ -156,7 +162,8 @@ class AttitudeCorrection:
             for wheel, schedule in zip(self._wheels, self._schedule, strict=True)
         )
         q, age = self._estimate.q_WS, self._estimate.fix_age
-        seen = self._origin + 1e-9 * self._estimate.time
+        time = self._estimate.time
+        seen = self._origin + 1e-9 * time if time else -1.0
         return (
             *(one[0], two[0], three[0], one[1], two[1], three[1], one[2], two[2], three[2]),
             *(seen, q[0], q[1], q[2], q[3], self.error, age if age < inf else -1.0),
@@ -225,8 +232,7 @@ class AttitudeCorrection:
         q_WS, self._seen_added_S = _at(sent, time)
         self._seen_error_S = log(multiply(conjugate(self._estimate.q_WS), q_WS))
         self.error = norm(self._seen_error_S)
-        if not self.standing:
-            self._largest_error = max(self._largest_error, self.error)
+        self._largest_error = max(self._largest_error, self.error)
 
     def _note_rate(self) -> None:
         one, two, three = self._wheels

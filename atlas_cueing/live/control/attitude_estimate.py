@@ -86,7 +86,8 @@ class AttitudeEstimate:
     def trouble(self) -> str:
         """Why the estimate is not to be used; empty when it is."""
         if not self.fault and self._uses_fix and self.fix_age > FIX_TIMEOUT:
-            return f"no fix of the cabin has come for {FIX_TIMEOUT:g} s: nothing is corrected"
+            late = "yet" if self.fix_age == inf else f"for {FIX_TIMEOUT:g} s"
+            return f"no fix of the cabin has come {late}: nothing is corrected"
         return self.fault
 
     def hear(self, status: DriveStatus) -> bool:

@@ -113,6 +113,8 @@ class LiveController:
             self._watch_drives(slot)
             if not self._landing:
                 tick = self._make_tick(slot)
+            elif self._operator.stop_requests() > 1:
+                self._stop_at_once("asked to stop at once")
         except BaseException as error:  # noqa: BLE001
             # After any error the platform must come to a stop
             self._fail(described(error))

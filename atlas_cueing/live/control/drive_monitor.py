@@ -18,6 +18,7 @@ TIMEOUT = 0.05  # s without a status while it moves, by default
 MOST_OFF = (radians(0.1), 1e-3)  # rad of a wheel and m of the stage between drives and command
 LEAST_MARGIN = 0.002  # s that set points have to come early before it sets out
 PATIENCE = 1.0  # s that a trouble at rest has to last before it is told
+_MOST_AHEAD = 0.02  # s that the drives' clock may be ahead (assumed)
 _MARGIN_TIME = 0.25  # s; the least margin of so long counts
 _KEPT = 1024  # commands, newest due times first to come: a second at 1 kHz
 
@@ -54,7 +55,7 @@ class DriveMonitor:
         self._margins: deque[tuple[float, float]] = deque()
         self._status: DriveStatus | None = None
         self._came = self._since = -inf  # the newest status, this kind of trouble, s
-        self._off = self._kind = self._told = ""
+        self._off = self._clock = self._kind = self._told = ""
         self._ever_moved = False
         self._moving = False  # by the commands, and not yet at rest by the drives' words
         self._at_rest: int | None = None  # when the first command at rest is due, ns
@@ -119,6 +120,7 @@ class DriveMonitor:
         return notes
 
     def _take(self, status: DriveStatus, now: float) -> None:
+        self._clock = self._clock_trouble(status, now)
         self._status, self._came = status, now
         if self._attitude:
             self._attitude.hear(status)
@@ -150,6 +152,18 @@ class DriveMonitor:
                 f" the command, allowed: {degrees(self._most_off):g} deg and 1 mm"
             )
 
+    def _clock_trouble(self, status: DriveStatus, now: float) -> str:
+        """Describe a time that cannot be that of a status that has come now; empty otherwise."""
+        age, before = now - 1e-9 * status.time, self._status
+        if before is not None and status.time <= before.time:
+            return "time stands still or runs back in the drives' statuses; their clock is wrong"
+        if -_MOST_AHEAD <= age <= self._timeout:
+            return ""
+        return (
+            f"a status of the drives is {1e3 * age:.0f} ms old, allowed: {-1e3 * _MOST_AHEAD:.0f}"
+            f" to {1e3 * self._timeout:.0f} ms; keep both clocks together (as by PTP)"
+        )
+
     def _disagreement(self, now: float) -> tuple[str, str]:
         """Return kind and description of what is a fault while the platform moves."""
         status = self._status
@@ -159,9 +173,10 @@ class DriveMonitor:
                 " say --no-drive-status for one that tells nothing"
             )
         if now - self._came > self._timeout:
+            refusal = f"; refused: {self._feedback.refusal}" if self._feedback.refusal else ""
             return "silent", (
                 f"the drives were silent for {1e3 * (now - self._came):.0f} ms,"
-                f" allowed: {1e3 * self._timeout:.0f} ms"
+                f" allowed: {1e3 * self._timeout:.0f} ms{refusal}"
             )
         if status.state == "waiting":
             reason = f": {status.reason}" if status.reason else ""
@@ -173,8 +188,8 @@ class DriveMonitor:
             )
         if status.state == "latched":
             return "latched", f"the drives have latched: {status.reason}; reset them"
-        if self._off:
-            return "off", self._off
+        if self._clock or self._off:
+            return ("clock", self._clock) if self._clock else ("off", self._off)
         fault = self._attitude.fault if self._attitude else ""
         return ("sensors", fault) if fault else ("", "")
 

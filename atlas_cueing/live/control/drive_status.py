@@ -68,5 +68,9 @@ class DriveFeedback(Protocol):
     def session(self) -> int:
         """Session of the set points that go to these drives."""
 
+    @property
+    def refusal(self) -> str:
+        """Why the last status that came was not taken; empty when it was."""
+
     def statuses(self) -> Sequence[DriveStatus]:
         """Return what has come since the last call, in order, without waiting."""

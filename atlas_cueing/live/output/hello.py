@@ -20,7 +20,9 @@ points and goes to theirs, before the first of them and once a second from then 
 The hash of limits is BLAKE2s, without a key, of 16 bytes, over 21 doubles, little-endian: speed,
 acceleration and jerk of the wheels, 1 to 3 each (rad, s), then travel, speed, acceleration and jerk
 of the stage, x, y, z each (m, s), exactly as in the platform file. Equal hashes say that both sides
-derive the same stop from the same set point.
+derive the same stop from the same set point. Where the platform keeps traction (`[traction] keep`)
+its stop is soft, and two doubles follow: the share of their acceleration that wheels and stage
+brake with (`certified_axis.SoftStop`).
 
 The correction is room for a constant that a later version may add to all set points of its session,
 such as an encoder's offset. A receiver of version 1 refuses any but zero.

@@ -49,7 +49,8 @@ What a receiver has to do (`receiver` does it, and is the reference):
    of `guard`, with its limits. A lost packet is just a longer h.
 3. Move from one to the next so that position, speed and acceleration meet both and jerk keeps its
    limit, as `bridge` does.
-4. Fly the shortest stop of limited jerk from the newest set point as soon as that is due and has no
+4. Fly the certified stop, the shortest of limited jerk, or the soft one of a platform that keeps
+   traction (`hello`), from the newest set point as soon as that is due and has no
    successor: it is certified to keep the travel. There is no other watchdog and no coasting. The
    sender derives the same stop from the same set point, and its set points then lie on it.
 5. Leave that stop for a set point on it (1e-6), or within 20 ms for one that is still to come and

@@ -21,6 +21,7 @@ class SetPointSender:
 
     unsent: packets that the kernel did not take: its buffer was full, or there is no receiver.
     session: random number of this sender.
+    refusal: why the last status that came was not taken; empty when it was.
     """
 
     def __init__(self, host: str, port: int, key: bytes = b"", limits: bytes = b"") -> None:
@@ -38,7 +39,7 @@ class SetPointSender:
         """
         check_key(key)
         _check_address(host, key)
-        self.unsent = 0
+        self.unsent, self.refusal = 0, ""
         self.session = secrets.randbits(64) | 1  # never 0, which means none
         self._key, self._limits = key, limits
         self._asked: int | None = None  # due time of the set point that came with the last hello
@@ -90,11 +91,12 @@ class SetPointSender:
         """Return the status in a packet, or nothing."""
         try:
             session, one = status.decode(packet, self._key)
-        except SetPointError:
+        except SetPointError as error:
+            self.refusal = str(error)
             return []
         if session != self.session or one.number <= self._heard:
             return []
-        self._heard = one.number
+        self._heard, self.refusal = one.number, ""
         return [one]
 
     def _ask(self, due: int) -> None:

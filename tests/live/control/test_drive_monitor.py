@@ -21,6 +21,7 @@ class Words:
     """What the drives say, as it comes."""
 
     session = 7
+    refusal = ""
 
     def __init__(self) -> None:
         self.new: list[DriveStatus] = []
@@ -136,11 +137,10 @@ def test_between_two_commands_the_motion_is_known_to_microradians() -> None:
     assert 0.0 < watched.monitor.wheel_difference < 5e-6
 
 
-def test_positions_before_or_after_all_commands_are_not_judged() -> None:
-    watched = in_motion()
-    far = (1e3, 0.0, 0.0)
-    for time in (-1, 10**12):
-        assert watched.tick(time=time, wheel_angle=far) == ""
+def test_a_time_that_cannot_be_is_told() -> None:
+    for time, text in ((-1, "stands still or runs back"), (10**12, "ms old, allowed: -20 to 50")):
+        watched = in_motion()
+        assert text in watched.tick(time=time, wheel_angle=(1e3, 0.0, 0.0))
 
 
 def test_it_has_settled_when_the_drives_say_so() -> None:
@@ -203,3 +203,12 @@ def test_a_platform_that_follows_the_cue_counts_as_moving() -> None:
     watched = Watched()
     watched.tick(REST)
     assert "silent" in watched.monitor.watch(0.07, tracking=True)
+
+
+def test_words_that_cannot_be_read_are_told_with_the_silence() -> None:
+    watched = in_motion()
+    watched.words.refusal = "status 7 has a quaternion of norm 2, allowed: 1"
+    told = [watched.tick(silent=True) for _ in range(12)]
+    assert told[-1].endswith(
+        "allowed: 50 ms; refused: status 7 has a quaternion of norm 2, allowed: 1"
+    )
