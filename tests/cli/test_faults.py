@@ -32,7 +32,7 @@ ROOM = 200_000  # bytes; a tenth of the log
 
 def at_block(monkeypatch: pytest.MonkeyPatch, number: int, deed: object) -> None:
     """Do the deed when a run has kept so many blocks of ticks."""
-    keep, kept = run_module._RunLog.add, []
+    keep, kept = run_module.RunLog.add, []
 
     def keeping(self: object, states: object) -> None:
         keep(self, states)  # type: ignore[arg-type]
@@ -40,7 +40,7 @@ def at_block(monkeypatch: pytest.MonkeyPatch, number: int, deed: object) -> None
         if len(kept) == number:
             deed()  # type: ignore[operator]
 
-    monkeypatch.setattr(run_module._RunLog, "add", keeping)
+    monkeypatch.setattr(run_module.RunLog, "add", keeping)
 
 
 def test_a_full_disk(tmp_path: Path, command: Command) -> None:
@@ -116,8 +116,8 @@ def test_killed(tmp_path: Path, command: Command) -> None:
     (tmp_path / "s.toml").write_text(LONG)
     killing = (
         "import os, sys; from atlas_cueing.run import fly as r; from atlas_cueing.cli import"
-        " main; keep = r._RunLog.add\ndef k(self, states):\n keep(self, states)\n if"
-        " self.ticks > 600: os.kill(os.getpid(), 9)\nr._RunLog.add = k\nsys.exit(main())"
+        " main; keep = r.RunLog.add\ndef k(self, states):\n keep(self, states)\n if"
+        " self.ticks > 600: os.kill(os.getpid(), 9)\nr.RunLog.add = k\nsys.exit(main())"
     )
     ended = subprocess.run(
         [sys.executable, "-c", killing, "run", "s.toml"],
