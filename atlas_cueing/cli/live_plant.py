@@ -38,6 +38,7 @@ def simulated(
         stack.callback(process.finish)
 
         def told(result: "RunResult") -> "RunResult":
+            """End the platform; return the result with what it did, which goes into the log."""
             rows = process.finish()
             if result.log is None or result.live is None or not Path(result.log).exists():
                 return result

@@ -58,7 +58,7 @@ class _Extras(NamedTuple):
     records: list[bytes]
 
     def with_statuses(self, statuses: Sequence[Extra]) -> "_Extras":
-        """The same with changes of state among them, by place and log time."""
+        """Return these messages and changes of state, in order of place and log time."""
         ticks, channels, log_times, records = zip(*statuses, strict=True)
         places = np.concatenate([self.ticks, np.array(ticks, np.int64)])
         times = np.concatenate([self.log_times, np.array(log_times, np.uint64)])

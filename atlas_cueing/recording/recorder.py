@@ -22,6 +22,7 @@ from ..signals import (
     TOPICS,
     LoadColumns,
     Tick,
+    Topic,
     tick_row,
 )
 from .chunk import ELAPSED, ChunkEncoder, Extra, with_attitude, with_felt, with_loads
@@ -92,12 +93,10 @@ class McapRecorder:
         self._started = started_ns
         self._observer = observer
         self._loads = loads
-        self._topics = TOPICS if started_ns is None else LIVE_TOPICS
-        self._topics = (*self._topics, LOADS) if loads else self._topics
-        self._topics = (*self._topics, CORRECTION, ESTIMATE) if attitude else self._topics
+        self._attitude = attitude
+        self._topics = _topics(live=started_ns is not None, loads=bool(loads), attitude=attitude)
         self._row = ROW if started_ns is None else LIVE_ROW
         self._row += ATTITUDE_ROW if attitude else 0
-        self._attitude = attitude
         self._full = chunk_ticks * self._row * 8  # bytes of rows that make a chunk
         self._statuses: list[tuple[float, bytes]] = []
         self._latest = _BEFORE_START  # s; time of the last tick written
@@ -268,6 +267,15 @@ class McapRecorder:
         if self._failure:
             self._rows.clear()
             raise OutputError(self._failure)
+
+
+def _topics(*, live: bool, loads: bool, attitude: bool) -> tuple[Topic, ...]:
+    """Return the topics of a log, in the order of their numbers."""
+    return (
+        *(LIVE_TOPICS if live else TOPICS),
+        *((LOADS,) if loads else ()),
+        *((CORRECTION, ESTIMATE) if attitude else ()),
+    )
 
 
 def _check_options(chunk_ticks: int, skip_topics: Collection[str]) -> None:
