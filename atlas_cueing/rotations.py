@@ -20,9 +20,9 @@ def length(v: Array) -> Array:
 def cross(a: Array, b: Array) -> Array:
     """Vector products (n, 3) of the rows of a and b, both (n, 3).
 
-    They are those of np.cross to the last bit, in half the time.
+    They are those of np.cross to the last bit, in half the time, column by column in memory.
     """
-    c = np.empty(np.broadcast(a, b).shape)
+    c = np.empty(np.broadcast(a, b).shape, order="F")
     (ax, ay, az), (bx, by, bz) = a.T, b.T
     np.subtract(ay * bz, az * by, out=c[:, 0])
     np.subtract(az * bx, ax * bz, out=c[:, 1])

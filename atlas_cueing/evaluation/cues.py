@@ -50,12 +50,13 @@ class CueCounter:
         """Take in the next ticks (n,) of pilot and rider, as departures from rest."""
         wanted, size = np.abs(vehicle), np.abs(platform)
         asked, given = wanted > self._threshold, size > self._threshold
-        alike = asked & given & ((vehicle > 0.0) == (platform > 0.0))
+        both = asked & given
+        alike = both & ((vehicle > 0.0) == (platform > 0.0))
         low, high = GAIN_BAND
         scaled = alike & ((size < low * wanted) | (size > high * wanted))
         self._ticks += len(vehicle)
-        self._missing += int(np.count_nonzero(asked & ~given))
-        self._false += int(np.count_nonzero(given & ~alike))
+        self._missing += int(np.count_nonzero(asked)) - int(np.count_nonzero(both))
+        self._false += int(np.count_nonzero(given)) - int(np.count_nonzero(alike))
         self._scaled += int(np.count_nonzero(scaled))
 
     def shares(self) -> dict[str, float]:

@@ -51,10 +51,10 @@ class Perceived:
         if not self._ticks:
             self._begin(mean_step(block.time))
         pilot, rider = (block.vehicle_f_B, block.vehicle_w_B), (block.felt_f, block.felt_w)
-        motion = np.concatenate([self._kept, np.hstack([*pilot, *rider])])
+        motion = np.concatenate([self._kept, np.concatenate([*pilot, *rider], axis=1)])
         whole = len(motion) - len(motion) % self._ticks
         self._kept = motion[whole:]
-        means = np.mean(np.reshape(motion[:whole], (-1, self._ticks, 12)), axis=1)
+        means = _means(motion[:whole], self._ticks)
         self._lost = self._lost or not bool(np.all(np.abs(means) <= LARGEST))  # NaN is lost, too
         if len(means) and not self._lost:
             self._perceive(means)
@@ -82,7 +82,8 @@ class Perceived:
             motions = [motion[6:] for motion in motions]
         for head, motion, found in zip(self._heads, motions, perceived, strict=True):
             found += head.follow(motion)
-        pilot, rider = (np.reshape(found, (-1, 6)) for found in perceived)
+        # np.array would look at each number for its kind
+        pilot, rider = (np.fromiter(found, np.float64).reshape(-1, 6) for found in perceived)
         apart = distance(pilot[:, :3], rider[:, :3])
         together = distance(pilot[:, :3], -rider[:, :3])
         self._tilt.add(2.0 * np.arctan2(apart, together))
@@ -92,3 +93,11 @@ class Perceived:
         """Give an observer that begins with force and rate, six numbers."""
         fx, fy, fz, wx, wy, wz = row
         return Observer(self._dt, (fx, fy, fz), (wx, wy, wz))
+
+
+def _means(motion: Array, ticks: int) -> Array:
+    """Means (n / ticks, 12) of so many rows of motion (n, 12) each, added one after the other."""
+    total = motion[::ticks].copy()
+    for tick in range(1, ticks):
+        total += motion[tick::ticks]
+    return total / ticks

@@ -8,12 +8,12 @@ Nonlinear Approaches", NASA/CR-2005-213747, without their thresholds:
 """
 
 from dataclasses import dataclass
-from itertools import accumulate
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..rotations import Array
+from .carried import carried
 
 # that one row of a matrix product filters; the lags' states are carried from row to row
 _TICKS = 32
@@ -105,10 +105,12 @@ def _carried(ends: Array, decay: Array, start: Array) -> Array:
     ends: what each row adds to the states at its end (rows, lags); decay: factor of each lag in a
     row (lags,); start: states before the first row (lags,).
     """
-    columns = []
-    for added, factor, first in zip(ends.T.tolist(), decay.tolist(), start.tolist(), strict=True):
-        carried = accumulate(added, lambda z, x, factor=factor: factor * z + x, initial=first)  # type: ignore[misc]
-        columns.append(list(carried))
+    columns = [
+        carried(first, factor, added)
+        for first, factor, added in zip(
+            start.tolist(), decay.tolist(), ends.T.tolist(), strict=True
+        )
+    ]
     return np.array(columns).T
 
 

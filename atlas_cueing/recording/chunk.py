@@ -185,8 +185,15 @@ class ChunkEncoder:
 
 
 def with_felt(rows: Array, head_S: Vec3) -> Array:
-    """Append the fields of /felt to rows (n, ROW or LIVE_ROW); head_S in m, frame S."""
-    return np.hstack([rows, felt_columns(rows, head_S)])
+    """Append the fields of /felt to rows (n, ROW or LIVE_ROW); head_S in m, frame S.
+
+    Column by column in memory: from here on each is worked upon by itself.
+    """
+    count, width = rows.shape
+    ticks = np.empty((count, width + len(TOPICS[-1].fields)), order="F")
+    ticks[:, :width] = rows
+    ticks[:, width:] = felt_columns(ticks, head_S)
+    return ticks
 
 
 def with_loads(ticks: Array, loads: LoadColumns) -> Array:

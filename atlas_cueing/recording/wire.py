@@ -109,10 +109,11 @@ def repeat(template: Records, count: int) -> Records:
 
 
 def put(records: Records, values: Array) -> None:
-    """Write values (n, fields) into n records of `flat_dtype`."""
-    records["near"]["value"] = values[:, :_ONE_BYTE_TAGS]
-    if values.shape[1] > _ONE_BYTE_TAGS:
-        records["far"]["value"] = values[:, _ONE_BYTE_TAGS:]
+    """Write values (n, fields) into n records of `flat_dtype`, column by column."""
+    near, far = values.T[:_ONE_BYTE_TAGS], values.T[_ONE_BYTE_TAGS:]
+    for part, columns in (("near", near), ("far", far)) if len(far) else (("near", near),):
+        for written, column in zip(records[part]["value"].T, columns, strict=True):
+            written[:] = column
 
 
 @lru_cache
