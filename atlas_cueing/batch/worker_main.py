@@ -18,8 +18,6 @@ from contextlib import suppress
 from pathlib import Path
 from time import monotonic
 
-import numpy.fft  # noqa: F401 - numpy loads it when it is first used, which would be in every child
-
 from ..errors import OutputError
 from ..vehicles import flight_of_bytes
 from .execute import OneFlight, confine, fly_alone, left_by
@@ -28,7 +26,9 @@ from .job import Job
 from .job_result import JobResult, done_by_another, keep
 from .kept_flights import KeptFlights
 from .store import ResultStore, open_store
+from .warm_up import warm_up
 
+_RARELY = 200_000  # objects made between two garbage collections: a ride leaves no cycles
 _FLIGHT = ".flight"  # what a child leaves for the runs that follow
 
 
@@ -37,8 +37,10 @@ def main() -> None:
     replies = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints must not get among the results
     flights = KeptFlights()
+    warm_up()
     gc.collect()
     gc.freeze()  # so that children do not copy what they never change
+    gc.set_threshold(_RARELY)
     with suppress(EOFError):
         while line := sys.stdin.buffer.readline():
             result = isolated(Job.from_line(line), flights)

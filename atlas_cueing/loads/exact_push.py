@@ -63,7 +63,7 @@ def _least_along(stretched: Array, by_step: Array, move: Array, need: float) -> 
     """
     turns = np.abs(by_step) > 0.0
     at = -stretched[turns] / by_step[turns]
-    times = np.concatenate([[0.0], np.unique(at[at > 0.0])])
+    times = np.concatenate([[0.0], np.sort(at[at > 0.0])])
     slopes = np.maximum(stretched + times[:, None] * by_step, 0.0) @ move + need
     k = int(np.argmax(slopes >= 0.0)) if np.any(slopes >= 0.0) else len(times)
     if 0 < k < len(times):

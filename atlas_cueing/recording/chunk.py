@@ -179,7 +179,7 @@ class ChunkEncoder:
         for name, offset in self._offsets.items() if len(ticks) else ():
             index[self._channels[name]] = _entries(times, bases + offset)
         entries = _entries(extras.log_times, extras.ticks * ticks.itemsize + sizes[:-1])
-        for channel in np.unique(extras.channels).tolist():
+        for channel in sorted(set(extras.channels.tolist())):  # np.unique would load numpy.ma
             index[channel] = entries[extras.channels == channel]
         return index
 
