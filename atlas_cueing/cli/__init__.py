@@ -12,76 +12,64 @@ import sys
 import traceback
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
+from importlib import import_module
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Final
 
 import typer
 
 from ..errors import AtlasError, InputError
 from ..printable import printable
-from .batch import EPILOG as BATCH_EPILOG
-from .batch import batch_command
-from .catalogue import KEYS_EPILOG, LIST_EPILOG, NEW_EPILOG, keys_command, list_command, new_command
-from .compare import EPILOG as COMPARE_EPILOG
-from .compare import compare_command
-from .design import EPILOG as DESIGN_EPILOG
-from .design import design_command
-from .export_log import EPILOG as EXPORT_EPILOG
-from .export_log import export_command
-from .import_file import EPILOG as IMPORT_EPILOG
-from .import_file import import_command
-from .live import EPILOG as LIVE_EPILOG
-from .live import live_command
-from .operate import EPILOG as OPERATE_EPILOG
-from .operate import operate_command
-from .plant import EPILOG as PLANT_EPILOG
-from .plant import plant_command
-from .platform import EPILOG as PLATFORM_EPILOG
-from .platform import platform_command
-from .recover import EPILOG as RECOVER_EPILOG
-from .recover import recover_command
-from .recue import EPILOG as RECUE_EPILOG
-from .recue import recue_command
-from .review import EPILOG as REVIEW_EPILOG
-from .review import review_command
-from .run import EPILOG as RUN_EPILOG
-from .run import run_command
 from .streams import safe_streams
 from .text import copyable
 
 # as in a full /tmp
 _OF_THE_SYSTEM = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EMFILE, errno.ENFILE)
 
-app = typer.Typer(
-    help=(
-        "Washout-free motion cueing: a flight becomes wheel velocity profiles of a sphere that"
-        " turns without bound."
-    ),
-    epilog="Example: atlas-cueing run scenarios/c172_elevator_doublet.toml",
-    no_args_is_help=True,
-    pretty_exceptions_enable=False,
-    add_completion=False,
-    rich_markup_mode=None,
-)
+_COMMANDS: Final = {  # to the module of each, in the order of --help
+    "run": "run",
+    "batch": "batch",
+    "live": "live",
+    "operate": "operate",
+    "review": "review",
+    "compare": "compare",
+    "recue": "recue",
+    "recover": "recover",
+    "import": "import_file",
+    "export": "export_log",
+    "plant": "plant",
+    "platform": "platform",
+    "design": "design",
+    "new": "new",
+    "keys": "keys",
+    "list": "list_own",
+}
 # Without a handler Python would print JSBSim's warnings to stderr among ours.
 logging.getLogger("atlas_cueing").addHandler(logging.NullHandler())
 
-app.command("run", epilog=copyable(RUN_EPILOG))(run_command)
-app.command("batch", epilog=copyable(BATCH_EPILOG))(batch_command)
-app.command("live", epilog=copyable(LIVE_EPILOG))(live_command)
-app.command("operate", epilog=copyable(OPERATE_EPILOG))(operate_command)
-app.command("review", epilog=copyable(REVIEW_EPILOG))(review_command)
-app.command("compare", epilog=copyable(COMPARE_EPILOG))(compare_command)
-app.command("recue", epilog=copyable(RECUE_EPILOG))(recue_command)
-app.command("recover", epilog=copyable(RECOVER_EPILOG))(recover_command)
-app.command("import", epilog=copyable(IMPORT_EPILOG))(import_command)
-app.command("export", epilog=copyable(EXPORT_EPILOG))(export_command)
-app.command("plant", epilog=copyable(PLANT_EPILOG))(plant_command)
-app.command("platform", epilog=copyable(PLATFORM_EPILOG))(platform_command)
-app.command("design", epilog=copyable(DESIGN_EPILOG))(design_command)
-app.command("new", epilog=copyable(NEW_EPILOG))(new_command)
-app.command("keys", epilog=copyable(KEYS_EPILOG))(keys_command)
-app.command("list", epilog=copyable(LIST_EPILOG))(list_command)
+
+def _app(words: Sequence[str]) -> typer.Typer:
+    """Make the command line of these arguments: the one command that they name, or else all.
+
+    All of them take as long to load as half of --help.
+    """
+    app = typer.Typer(
+        help=(
+            "Washout-free motion cueing: a flight becomes wheel velocity profiles of a sphere that"
+            " turns without bound."
+        ),
+        epilog="Example: atlas-cueing run scenarios/c172_elevator_doublet.toml",
+        no_args_is_help=True,
+        pretty_exceptions_enable=False,
+        add_completion=False,
+        rich_markup_mode=None,
+    )
+    app.callback()(_options)
+    for name in words[:1] if words and words[0] in _COMMANDS else _COMMANDS:
+        module = import_module(f".{_COMMANDS[name]}", __name__)
+        command = getattr(module, f"{name}_command")
+        app.command(name, epilog=copyable(module.EPILOG))(command)
+    return app
 
 
 def _show_version(asked: bool) -> None:
@@ -103,7 +91,6 @@ def _build() -> str:
     return f"plain Python ({reason})"
 
 
-@app.callback()
 def _options(
     _version: Annotated[
         bool,
@@ -149,7 +136,7 @@ def _ignore_signals() -> None:
 
 def _status(texts: list[str]) -> int:
     try:
-        app(args=texts, prog_name="atlas-cueing")
+        _app(texts)(args=texts, prog_name="atlas-cueing")
     except SystemExit as end:
         return end.code if isinstance(end.code, int) else 1
     except InputError as error:

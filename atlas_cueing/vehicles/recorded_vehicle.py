@@ -3,8 +3,9 @@
 from collections.abc import Sequence
 from itertools import pairwise
 from math import ulp
-from statistics import median
 from typing import Final
+
+import numpy as np
 
 from ..errors import InputError
 from ..signals import VehicleState
@@ -90,5 +91,5 @@ def _step(times: Sequence[float]) -> float:
     Gaps count as several.
     """
     first, span = times[1] - times[0], times[-1] - times[0]
-    ticks = max(round(span / median(after - before for before, after in pairwise(times))), 1)
+    ticks = max(round(span / float(np.median(np.diff(times)))), 1)
     return first if abs(ticks * first - span) <= ticks * ulp(times[-1]) else span / ticks

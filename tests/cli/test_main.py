@@ -2,9 +2,11 @@
 
 import logging
 import os
+import re
 import signal
 import subprocess
 import sys
+from importlib import import_module
 from importlib.metadata import entry_points, version
 from pathlib import Path
 
@@ -52,6 +54,19 @@ def test_an_interrupt_while_loading_is_no_traceback() -> None:
     assert (ended.returncode, ended.stdout, ended.stderr) == (130, b"", b"")
 
 
+def test_nothing_is_collected_at_the_exit() -> None:
+    """That would take longer than all else between the end of a command and its process's."""
+    code = (
+        "import atexit, gc, sys\n"
+        "atexit.register(lambda: print(gc.get_freeze_count() > 10_000))\n"
+        "from atlas_cueing.__main__ import main\n"
+        "sys.exit(main())"
+    )
+    command = [sys.executable, "-c", code, "--version"]
+    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    assert said.splitlines()[1:] == ["True"]
+
+
 def test_version(command: Command) -> None:
     kind = (
         "compiled"
@@ -76,11 +91,7 @@ def test_help_has_examples(command: Command, arguments: list[str]) -> None:
 
 @pytest.mark.parametrize("word", ["batch", "design", "live", "recue", "run"])
 def test_examples_can_be_copied_from_the_help(command: Command, word: str) -> None:
-    import re
-
-    from atlas_cueing import cli
-
-    epilog = getattr(cli, f"{word.upper()}_EPILOG")
+    epilog = import_module(f"atlas_cueing.cli.{word}").EPILOG
     examples = re.findall(r"^  (atlas-cueing .*)$", epilog, re.MULTILINE)
     shown = command(word, "--help").out
     assert max(map(len, shown.splitlines())) <= 80
@@ -107,6 +118,7 @@ def test_help_loads_neither_simulator_nor_numbers() -> None:
         [sys.executable, "-c", code], capture_output=True, text=True, check=True
     ).stderr.split()
     assert "atlas_cueing.cli.run" in modules
+    assert "atlas_cueing.cli.batch" not in modules  # nor the other commands
     assert not {"jsbsim", "numpy", "scipy", "ruckig", "mcap"} & set(modules)
 
 
