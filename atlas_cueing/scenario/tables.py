@@ -21,6 +21,11 @@ class ScenarioTable(BaseModel):
         extra="forbid", strict=True, frozen=True, allow_inf_nan=False, defer_build=True
     )
 
+    @classmethod
+    def kinds(cls) -> "list[type[ScenarioTable]]":
+        """List the tables that a key may hold whose type is this one."""
+        return [cls]
+
 
 def refuse(allowed: str) -> PydanticCustomError:
     """Make the error to raise from a validator; its text says what is allowed."""
@@ -154,5 +159,5 @@ Finite: TypeAlias = Annotated[float, BeforeValidator(_finite)]
 def tables_in(annotation: Any) -> list[type[ScenarioTable]]:
     """List the tables that a key of this type may hold."""
     if isinstance(annotation, type) and issubclass(annotation, ScenarioTable):
-        return [annotation]
+        return annotation.kinds()
     return [table for argument in get_args(annotation) for table in tables_in(argument)]
