@@ -11,7 +11,7 @@ from ..scenario import Scenario, load_scenario
 from ..signals import Vehicle
 from ..vehicles import KeptFlight, RememberedVehicle
 from .job import Job
-from .job_result import JobResult
+from .job_result import REFUSED, JobResult
 from .run_id import run_id
 
 
@@ -38,12 +38,17 @@ class OneFlight:
         self._kept = kept
         self._most = most_bytes
         self._flown: RememberedVehicle | None = None
+        self.refused = False  # the model did not load, or its flight did not begin
 
     def opened(self, scenario: Scenario) -> Vehicle:
         """Give the vehicle at its first state. Raises what `open_vehicle` raises."""
         if self._kept:
             return self._kept.vehicle()
-        vehicle = open_vehicle(scenario)
+        try:
+            vehicle = open_vehicle(scenario)
+        except InputError:
+            self.refused = True
+            raise
         if not self._most:
             return vehicle
         self._flown = RememberedVehicle(vehicle, self._most)
@@ -61,6 +66,7 @@ def fly_alone(job: Job, workdir: Path, flight: OneFlight | None = None) -> JobRe
 
     Raises only what ends the process.
     """
+    flight = flight or OneFlight()
     try:
         with TemporaryDirectory(prefix="atlas_cueing_") as folder:
             for name, content in job.files.items():
@@ -74,8 +80,8 @@ def fly_alone(job: Job, workdir: Path, flight: OneFlight | None = None) -> JobRe
             if here != job.id:
                 differs = f"this worker would fly {here}: its versions are not the driver's"
                 return JobResult("worker_differs", differs, id=job.id)
-            opened = (flight or OneFlight()).opened
-            result = run_scenario(scenario, workdir / f"{job.id}.mcap", opened=opened)
+            log = workdir / f"{job.id}.mcap"
+            result = run_scenario(scenario, log, opened=flight.opened)
     except MemoryError:
         result = RunResult(
             "out_of_memory", f"needs more than {job.limits.memory:g} GB", left_by(job, workdir)
@@ -83,8 +89,8 @@ def fly_alone(job: Job, workdir: Path, flight: OneFlight | None = None) -> JobRe
     except OutputError as error:
         result = RunResult("recording_failed", str(error))
     except InputError as error:
-        # the scenario was checked when it was planned, so it is the model that does not load
-        result = RunResult("vehicle_failed", str(error).replace(f"{folder}/", ""))
+        word = "vehicle_failed" if flight.refused else REFUSED
+        result = RunResult(word, str(error).replace(f"{folder}/", ""))
     except OSError as error:
         result = RunResult("recording_failed", f"{type(error).__name__}: {error}")
     except Exception as error:  # noqa: BLE001 - one failed run must not end the others

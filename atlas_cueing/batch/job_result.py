@@ -5,18 +5,21 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from math import isfinite, nan
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, Final, Self
 
 from ..atomic_file import write_whole
 from ..run import METHOD_FAILED, Evaluation, RunResult
 from .store import ResultStore
 
+# what `run` refuses with exit status 2, and could not be known before the vehicle was there
+REFUSED: Final = "refused"
 # The run itself ended so: the same again would end the same. Anything else (a full disk, a lost
 # worker) is flown again.
 FINAL = (
     "ok",
     "vehicle_failed",
     METHOD_FAILED,
+    REFUSED,
     "failed",
     "crashed",
     "timed_out",
@@ -34,8 +37,9 @@ class JobResult(RunResult):
     Angles are in rad and everything else in SI, units in the names of the figures.
 
     id: of the run.
-    result: as in `RunResult`, or crashed, timed_out, out_of_memory, failed (an unexpected error);
-        never kept: recording_failed, worker_lost, worker_differs.
+    result: as in `RunResult`, or refused (as a first pose that is not safe at rest), crashed,
+        timed_out, out_of_memory, failed (an unexpected error); never kept: recording_failed,
+        worker_lost, worker_differs.
     log: name of the file beside this one; mostly a `.part` when the run was killed.
     """
 

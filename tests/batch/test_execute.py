@@ -10,10 +10,11 @@ from atlas_cueing.batch import execute as alone
 from atlas_cueing.batch.execute import fly_alone, left_by
 from atlas_cueing.batch.job import Job, RunLimits
 from atlas_cueing.batch.job_result import JobResult
-from atlas_cueing.errors import OutputError
+from atlas_cueing.errors import InputError, OutputError
 from atlas_cueing.run import run_scenario
+from atlas_cueing.scenario import presets
 
-from .sweeping import job_of, planned
+from .sweeping import SWEEP, job_of, planned
 
 
 def test_log_and_figures_are_those_of_a_plain_run(tmp_path: Path) -> None:
@@ -89,8 +90,27 @@ def test_a_folder_that_is_gone(tmp_path: Path) -> None:
 def test_a_scenario_that_the_worker_cannot_read_is_a_failure_of_that_run(tmp_path: Path) -> None:
     assert (
         fly_alone(Job("r", str(tmp_path), {"scenario.toml": "["}, RunLimits()), tmp_path).result
-        == "vehicle_failed"
+        == "refused"
     )
+
+
+def test_a_first_pose_that_is_not_safe_at_rest_is_no_failed_vehicle(tmp_path: Path) -> None:
+    """`run` refuses it with the same words. The cabin, of 220 kg, hangs 1.2 m off the centre."""
+    (tmp_path / "p.toml").write_text(
+        presets()["atlas-2.9m"]
+        .read_text()
+        .replace("[0.0, 0.0, -0.1]", "[1.2, 0.0, -0.1]")
+        .replace("margin = 1.25", "keep = true\nmargin = 1.25")
+    )
+    own = SWEEP.replace('preset = "atlas-2.9m"', 'file = "p.toml"')
+    run = planned(tmp_path, text=own)[0]
+    with pytest.raises(InputError) as refused:
+        run_scenario(run.scenario, tmp_path / "run.mcap")
+    result = fly_alone(job_of(run, tmp_path), tmp_path)
+    assert (result.result, result.log, result.ticks) == ("refused", None, 0)
+    assert "at rest in the first pose" in result.reason
+    assert result.reason == str(refused.value)
+    assert result.final
 
 
 def test_a_log_that_was_left_is_named(tmp_path: Path) -> None:
