@@ -79,12 +79,12 @@ def import_command(
     jitter are brought onto an even grid; gaps of 0.2 s or more are refused, or split. The flight
     is played with source = "recording", or cued by recue.
 
-    Exit status 0: written. 2: bad input; file, line or message, and column are named, and nothing
-    was written.
+    Exit status 0: written. 1: written, but the file is damaged, and what could be read of it may
+    not be all. 2: bad input; file, line or message, and column are named, and nothing was written.
     """
     from ..flight_data import load_map, write_flight
     from ..run import check_output
-    from .text import aligned, one_json
+    from .text import aligned, one_json, say
 
     if list_maps:
         typer.echo(one_json({"maps": _maps()}) if as_json else "\n".join(_map_lines()))
@@ -105,8 +105,12 @@ def import_command(
         write_flight(log, found, flight_map, number)
     if as_json:
         typer.echo(one_json(_as_json(found, flight_map, logs)))
-        return
-    typer.echo("\n".join(aligned(_rows(found, flight_map, logs), "")))
+    else:
+        typer.echo("\n".join(aligned(_rows(found, flight_map, logs), "")))
+    for each in found.damage:
+        say(f"{file}: {each}")
+    if found.damage:
+        raise typer.Exit(1)
 
 
 def _read_files(file: Path, map_name: str) -> list[Path]:
@@ -173,7 +177,7 @@ def _as_json(found: "ImportedFlights", flight_map: "FlightMap", logs: list[Path]
     from ..flight_data import metadata_of
 
     return {
-        "result": "ok",
+        "result": "damaged" if found.damage else "ok",
         "origin": str(found.path),
         "map": found.map_name,
         "flights": [

@@ -37,13 +37,15 @@ _QUANTITIES: Mapping[Part, Quantity] = {"force": "force", "rate": "rate", "attit
 class ImportedFlights:
     """The flights of a file, one or, split at its gaps, several.
 
-    path: of the file. flights: in order. notes: what was found and done, a line each.
+    path: of the file. flights: in order. notes: what was found and done, a line each. damage: those
+        of them that say where the file is damaged, so that something may be missing.
     """
 
     path: Path
     map_name: str
     flights: tuple[GriddedFlight, ...]
     notes: tuple[str, ...]
+    damage: tuple[str, ...] = ()
 
 
 def import_flight(
@@ -79,7 +81,8 @@ def import_flight(
             f"{path}: is a folder, allowed for the format {flight_map.format!r}: a file"
         )
     read = READERS[flight_map.format](path, flight_map, lambda share: progress(_READING * share))
-    notes = list(dict.fromkeys(note for samples in read.values() for note in samples.notes))
+    damage = tuple(dict.fromkeys(note for samples in read.values() for note in samples.notes))
+    notes = [*damage]
     notes += [f"{part}: not in the file" for part in ("attitude",) if _is_lacking(flight_map, read)]
     parts = _series(str(path), read, flight_map)
     notes += _stamp_notes(parts)
@@ -90,9 +93,8 @@ def import_flight(
         share = _share(progress, k, len(pieces))
         flights.append(_flight(path, piece, factors, flight_map, share))
     progress(1.0)
-    return ImportedFlights(
-        path, flight_map.name, tuple(flights), (*notes, *_doubts(flights, flight_map))
-    )
+    notes += _doubts(flights, flight_map)
+    return ImportedFlights(path, flight_map.name, tuple(flights), tuple(notes), damage)
 
 
 def _share(progress: Progress, k: int, count: int) -> Progress:

@@ -51,6 +51,22 @@ def test_from_the_file_to_a_clean_run(command: Command, tmp_path: Path, name: st
     assert (refused.status, "is a file that is read" in refused.err) == (2, True)
 
 
+def test_what_a_damaged_file_has_is_written_with_a_finding(
+    command: Command, tmp_path: Path
+) -> None:
+    whole = recorders.dataflash(tmp_path / "a.bin", FLOWN).read_bytes()
+    begin = whole.index(b"\xa3\x95", len(whole) // 2)
+    (tmp_path / "a.bin").write_bytes(whole[: begin + 2] + b"\xc2" + whole[begin + 3 :])
+    ended = command("import", "a.bin", "-o", "a.mcap", "--map", "ardupilot", "--json")
+    table = json.loads(ended.out)
+    assert (ended.status, table["result"]) == (1, "damaged")
+    assert ended.err == f"a.bin: {table['notes'][0]}\n"
+    assert "the file is damaged, unknown msg type" in ended.err
+    assert command("review", "a.mcap").status == 0
+    again = command("import", "a.bin", "-o", "b.mcap", "--map", "ardupilot")
+    assert (again.status, "note      the file is damaged" in again.out) == (1, True)
+
+
 def test_split_flights_are_numbered(command: Command, tmp_path: Path) -> None:
     lines = plain_csv(tmp_path / "a.csv", truth(np.arange(600) / 100.0)).read_text().splitlines()
     del lines[250:290]
