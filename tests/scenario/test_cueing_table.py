@@ -1,5 +1,8 @@
 import pickle
+import subprocess
+import sys
 from math import degrees, inf
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -19,6 +22,8 @@ from atlas_cueing.cueing import (
     StageParameters,
 )
 from atlas_cueing.scenario.cueing_table import TABLES, CueingTable, MethodTable
+
+ROLLS = Path(__file__).parents[2] / "scenarios" / "f16_rolls.toml"
 
 adapter: TypeAdapter[MethodTable] = TypeAdapter(CueingTable)
 
@@ -236,6 +241,18 @@ def test_a_stage_table_of_classical_keeps_the_set_for_what_it_leaves_out(
 
 def test_without_a_travel_the_platform_s_counts() -> None:
     assert adapter.validate_python({"method": "force"}).stage_parameters().travel == (inf, inf, inf)
+
+
+def test_the_table_of_a_method_is_built_when_it_is_asked_for() -> None:
+    """All of them take longer than the rest of a scenario."""
+    code = (
+        "from atlas_cueing.scenario import load_scenario\n"
+        "from atlas_cueing.scenario.cueing_table import PackageMethodTable\n"
+        f"load_scenario({str(ROLLS)!r}, ['cueing.method=still'])\n"
+        "print(*sorted(table.__name__ for table in PackageMethodTable.__subclasses__()))"
+    )
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert ran.stdout.split() == ["HedgeTable", "StillTable"]  # hedge: the default
 
 
 def test_hedge_is_the_default() -> None:
