@@ -47,7 +47,7 @@ def test_a_file_too_large_to_carry_is_read_where_it_lies(load: Load, tmp_path: P
     run_scenario(load("duration_s=0.3"), tmp_path / "flown.mcap")
     assert fly_alone(sent, tmp_path).result == "worker_differs"
     (tmp_path / "flown.mcap").unlink()
-    assert fly_alone(sent, tmp_path).result == "vehicle_failed"
+    assert fly_alone(sent, tmp_path).result == "refused"
 
 
 def test_a_sweep_over_a_recording_in_another_folder(load: Load, tmp_path: Path) -> None:
