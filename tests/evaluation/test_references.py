@@ -17,7 +17,7 @@ from atlas_cueing.evaluation import (
 from atlas_cueing.evaluation.perceived import Perceived
 from atlas_cueing.scenario import load_platform
 
-from . import references
+from . import reference_limits, references
 from .flights import G, any_flight
 from .test_blocks import STAGE, TO_WHEELS, WHEELS
 
@@ -56,7 +56,7 @@ def test_metrics(count: int) -> None:
 @counts
 def test_limit_use(count: int) -> None:
     flight = any_flight(count, 12)
-    expected = references.limit_use(flight, WHEELS, STAGE)
+    expected = reference_limits.limit_use(flight, WHEELS, STAGE)
     agree(gathered(LimitUse(WHEELS, STAGE), flight), expected)
 
 
@@ -64,7 +64,7 @@ def test_consistency() -> None:
     """The scheme is of fourth order: its error is far below what any of its terms gives here."""
     flight = any_flight(400, 13)
     found = gathered(Consistency(TO_WHEELS, TO_SPHERE), flight)
-    expected = references.consistency(flight, TO_SPHERE)
+    expected = reference_limits.consistency(flight, TO_SPHERE)
     assert list(found) == list(expected)
     for name, value in expected.items():
         assert found[name] == pytest.approx(value, rel=1e-9, abs=1e-7), name

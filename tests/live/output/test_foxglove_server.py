@@ -18,12 +18,12 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
 from atlas_cueing.errors import InputError
-from atlas_cueing.live.output.foxglove_server import RATE_HZ, REPEAT_S, Feed, FoxgloveProcess
-from atlas_cueing.recording.schemas import message_class, schema_of
-from atlas_cueing.signals import ATTITUDE_ROW, LIVE_TOPICS, live_row
+from atlas_cueing.live.output.foxglove_server import RATE_HZ, FoxgloveProcess
+from atlas_cueing.recording.schemas import message_class
+from atlas_cueing.signals import LIVE_TOPICS, live_row
 from atlas_cueing.telemetry import LiveWriter, Ring, live_ring
 
-from ..riding import STARTED_NS, child, live_recorder, live_tick, write_ticks
+from ..riding import STARTED_NS, child, live_tick, write_ticks
 
 PROTOCOL = "foxglove.sdk.v1"
 PATIENCE = 60.0  # s, for what takes milliseconds on a machine that has time
@@ -96,212 +96,140 @@ class Viewer:
         raise AssertionError("nothing is shown")
 
 
-class Corrected:
-    """An attitude that is corrected."""
-
-    def row(self) -> tuple[float, ...]:
-        return tuple(float(k) for k in range(ATTITUDE_ROW))
-
-
-class TestTheFeed:
-    def test_it_shows_the_newest_tick_and_every_state(self, ring: Ring) -> None:
-        feed, writer = Feed(ring, HEAD, STARTED_NS), LiveWriter(ring)
-        assert feed.new(0.0) == []
-        for k in range(5):
-            writer.tick(*live_tick(k))
-            writer.status(k, "running", str(k))
-        shown = feed.new(1.0)
-        assert sorted(topic for topic, _, _ in shown) == sorted([*TOPICS[:-1], *["/status"] * 5])
-        assert {at for _, at, _ in shown} == {STARTED_NS + 4_250_000_000}
-        assert feed.new(1.5) == []
-
-    @pytest.mark.parametrize("corrected", [False, True])
-    def test_the_messages_are_those_of_the_log(
-        self, ring: Ring, tmp_path: Path, *, corrected: bool
-    ) -> None:
-        """Byte for byte, read from a log by mcap's own reader."""
-        from mcap.reader import make_reader
-
-        feed = Feed(ring, HEAD, STARTED_NS, corrected)
-        writer = LiveWriter(ring, Corrected() if corrected else None)
-        recorder = live_recorder(tmp_path / "run.mcap", attitude=corrected)
-        written = {}
-        for k in range(5):
-            tick, timing = live_tick(0.1 * k)
-            writer.tick(tick, timing)
-            recorder.append_live(ring.read(ring.written - 1)[1])  # type: ignore[index]
-            writer.status(0.1 * k, "running", "x")
-            recorder.status(0.1 * k, "running", "x")
-            written |= {(topic, at): content for topic, at, content in feed.new(float(k))}
-        recorder.close("ok", "")
-        with (tmp_path / "run.mcap").open("rb") as stream:
-            messages = make_reader(stream).iter_messages()
-            logged = {
-                (channel.topic, message.log_time): message.data for _, channel, message in messages
-            }
-        assert written == logged
-        assert len(written) == 5 * (len(TOPICS) + 2 * corrected)
-
-    def test_the_state_is_said_again_for_those_who_came_later(self, ring: Ring) -> None:
-        feed, writer = Feed(ring, HEAD, STARTED_NS), LiveWriter(ring)
-        writer.status(0.0, "parked", "")
-        writer.status(0.0, "running", "")
-        assert len(feed.new(10.0)) == 2
-        assert feed.new(10.0 + 0.99 * REPEAT_S) == []
-        (again,) = feed.new(10.0 + REPEAT_S)
-        state = message_class(*schema_of("/status")).FromString(again[2])
-        assert state.state == "running"
-        assert feed.new(10.1 + REPEAT_S) == []
-
-    def test_of_a_backlog_only_the_newest_half_is_looked_at(self, ring: Ring) -> None:
-        """A server that was held up has no use for what is old.
-
-        And the writer is about to overwrite it.
-        """
-        feed, writer = Feed(ring, HEAD, STARTED_NS), LiveWriter(ring)
-        for k in range(ring.slots - 2):
-            writer.status(k, "running", str(k))
-        assert len(feed.new(0.0)) == ring.slots // 2
-
-    def test_the_end_is_seen(self, ring: Ring) -> None:
-        feed, writer = Feed(ring, HEAD, STARTED_NS), LiveWriter(ring)
-        feed.new(0.0)
-        assert not feed.over
-        writer.end(1.0, "ok", "")
-        feed.new(1.0)
-        assert feed.over
-
-
-class TestTheServer:
-    def test_a_viewer_reads_what_the_loop_wrote(self, ring: Ring, server: FoxgloveProcess) -> None:
-        viewer = Viewer(server.url)
-        assert viewer.info["name"] == "atlas_cueing"
-        assert viewer.info["capabilities"] == []
-        assert sorted(c["topic"] for c in viewer.channels.values()) == sorted(TOPICS)
-        shown = viewer.shown(LiveWriter(ring), 0.5)
-        elapsed = {at - STARTED_NS for at, _ in shown.values()}
-        assert len(elapsed) == 1
-        tick, timing = live_tick(elapsed.pop() / 1e9 - 0.25)
-        row = iter(live_row(tick, timing))
-        for topic in LIVE_TOPICS[:-1]:
-            message = viewer.decoded(topic.name, shown[topic.name][1])
-            assert [getattr(message, field) for field in topic.fields] == [
-                next(row) for _ in topic.fields
-            ]
-        stage, cabin = viewer.decoded("/tf", shown["/tf"][1]).transforms
-        assert (stage.translation.x, stage.translation.y, stage.translation.z) == tick.motion.p_WS_W
-        assert (
-            cabin.rotation.w,
-            cabin.rotation.x,
-            cabin.rotation.y,
-            cabin.rotation.z,
-        ) == tick.motion.q_WS
-        viewer.socket.close()
-
-    def test_a_late_viewer_hears_the_state(self, ring: Ring, server: FoxgloveProcess) -> None:
-        LiveWriter(ring).status(3.0, "holding", "no input")
-        viewer = Viewer(server.url)
-        topic, _, content = viewer.next()
-        state = viewer.decoded(topic, content)
-        assert (topic, state.time_s, state.state, state.reason) == (
-            "/status",
-            3.0,
-            "holding",
-            "no input",
-        )
-        viewer.socket.close()
-
-    def test_ticks_are_thinned_to_what_a_screen_draws(
-        self, ring: Ring, server: FoxgloveProcess
-    ) -> None:
-        viewer = Viewer(server.url)
-        writer = LiveWriter(ring)
-        viewer.shown(writer, 0.5)
-        start = monotonic()
-        write_ticks(writer, 500.0, 250)
-        seconds = monotonic() - start
-        writer.end(1.0, "ok", "")
-        shown = [topic for topic, _, _ in rest(viewer)]
-        assert 2 <= shown.count("/timing") <= (seconds + 0.5) * RATE_HZ
-
-    def test_web_pages_of_strangers_are_kept_out(self, server: FoxgloveProcess) -> None:
-        with pytest.raises(InvalidStatus, match="403"):
-            connect(server.url, subprotocols=[PROTOCOL], origin="https://evil.example", proxy=None)
-        with connect(
-            server.url, subprotocols=[PROTOCOL], origin="https://app.foxglove.dev", proxy=None
-        ) as page:
-            assert json.loads(page.recv(timeout=PATIENCE))["op"] == "serverInfo"
-
-    def test_a_client_that_does_not_read_and_one_that_vanishes_hold_up_nobody(
-        self, ring: Ring, server: FoxgloveProcess
-    ) -> None:
-        deaf, gone, viewer = Viewer(server.url), Viewer(server.url), Viewer(server.url)
-        deaf.socket.recv_messages.pause()
-        gone.socket.socket.close()
-        writer, before = LiveWriter(ring), ring.written
-        for k in range(20_000):
-            writer.tick(*live_tick(k * 0.002))
-        assert ring.written == before + 20_000
-        assert viewer.shown(writer, 100.0)
-        assert server.alive
-        for each in (deaf, viewer):
-            each.socket.socket.close()
-
-    @pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
-    def test_no_socket_but_on_loopback(self, ring: Ring, server: FoxgloveProcess) -> None:
-        viewer = Viewer(server.url)
-        viewer.shown(LiveWriter(ring), 0.5)
-        found = sockets(server.pid)
-        listening = [
-            address for table, address, _, state in found if table == "tcp" and state == "0A"
+def test_a_viewer_reads_what_the_loop_wrote(ring: Ring, server: FoxgloveProcess) -> None:
+    viewer = Viewer(server.url)
+    assert viewer.info["name"] == "atlas_cueing"
+    assert viewer.info["capabilities"] == []
+    assert sorted(c["topic"] for c in viewer.channels.values()) == sorted(TOPICS)
+    shown = viewer.shown(LiveWriter(ring), 0.5)
+    elapsed = {at - STARTED_NS for at, _ in shown.values()}
+    assert len(elapsed) == 1
+    tick, timing = live_tick(elapsed.pop() / 1e9 - 0.25)
+    row = iter(live_row(tick, timing))
+    for topic in LIVE_TOPICS[:-1]:
+        message = viewer.decoded(topic.name, shown[topic.name][1])
+        assert [getattr(message, field) for field in topic.fields] == [
+            next(row) for _ in topic.fields
         ]
-        assert len(listening) == 2
-        assert all(table == "tcp" and local.startswith("127.") for table, local, _, _ in found)
-        assert all(remote.startswith("127.") for _, _, remote, state in found if state != "0A")
-        viewer.socket.close()
+    stage, cabin = viewer.decoded("/tf", shown["/tf"][1]).transforms
+    assert (stage.translation.x, stage.translation.y, stage.translation.z) == tick.motion.p_WS_W
+    assert (
+        cabin.rotation.w,
+        cabin.rotation.x,
+        cabin.rotation.y,
+        cabin.rotation.z,
+    ) == tick.motion.q_WS
+    viewer.socket.close()
 
-    def test_it_ends_with_the_run(self, ring: Ring, server: FoxgloveProcess) -> None:
-        viewer = Viewer(server.url)
-        writer = LiveWriter(ring)
-        viewer.shown(writer, 0.5)
-        writer.status(1.0, "stopped", "over")
-        writer.end(1.0, "ok", "over")
-        until(lambda: not server.alive)
-        assert server.close()
-        results = [
-            viewer.decoded(topic, content).reason
-            for topic, _, content in rest(viewer)
-            if topic == "/status"
-        ]
-        assert results == ["over"]
 
-    def test_it_goes_when_the_loop_is_killed(self, ring: Ring) -> None:
-        reading, writing = os.pipe()
+def test_a_late_viewer_hears_the_state(ring: Ring, server: FoxgloveProcess) -> None:
+    LiveWriter(ring).status(3.0, "holding", "no input")
+    viewer = Viewer(server.url)
+    topic, _, content = viewer.next()
+    state = viewer.decoded(topic, content)
+    assert (topic, state.time_s, state.state, state.reason) == (
+        "/status",
+        3.0,
+        "holding",
+        "no input",
+    )
+    viewer.socket.close()
 
-        def run() -> None:
-            process = FoxgloveProcess(ring, 0, HEAD, STARTED_NS)
-            os.write(writing, f"{process.pid} {process.port}".encode())
-            signal.pause()
-            process.close()
 
-        with child(run) as loop:
-            pid, port = map(int, os.read(reading, 100).split())
-            connect(f"ws://127.0.0.1:{port}", subprotocols=[PROTOCOL], proxy=None).close()
-            os.kill(loop, signal.SIGKILL)
-        os.close(reading)
-        os.close(writing)
-        until(lambda: not running(pid))
+def test_ticks_are_thinned_to_what_a_screen_draws(ring: Ring, server: FoxgloveProcess) -> None:
+    viewer = Viewer(server.url)
+    writer = LiveWriter(ring)
+    viewer.shown(writer, 0.5)
+    start = monotonic()
+    write_ticks(writer, 500.0, 250)
+    seconds = monotonic() - start
+    writer.end(1.0, "ok", "")
+    shown = [topic for topic, _, _ in rest(viewer)]
+    assert 2 <= shown.count("/timing") <= (seconds + 0.5) * RATE_HZ
 
-    def test_a_port_that_is_taken_is_told_before_anything_starts(
-        self, ring: Ring, server: FoxgloveProcess
-    ) -> None:
-        with pytest.raises(InputError, match=f"TCP 127.0.0.1:{server.port}: cannot listen there"):
-            FoxgloveProcess(ring, server.port, HEAD, STARTED_NS)
 
-    def test_what_to_install_is_told(self, ring: Ring, monkeypatch: pytest.MonkeyPatch) -> None:
-        monkeypatch.setattr("atlas_cueing.live.output.foxglove_server.find_spec", lambda _: None)
-        with pytest.raises(InputError, match=r"pip install 'atlas_cueing\[foxglove\]'"):
-            FoxgloveProcess(ring, 0, HEAD, STARTED_NS)
+def test_web_pages_of_strangers_are_kept_out(server: FoxgloveProcess) -> None:
+    with pytest.raises(InvalidStatus, match="403"):
+        connect(server.url, subprotocols=[PROTOCOL], origin="https://evil.example", proxy=None)
+    with connect(
+        server.url, subprotocols=[PROTOCOL], origin="https://app.foxglove.dev", proxy=None
+    ) as page:
+        assert json.loads(page.recv(timeout=PATIENCE))["op"] == "serverInfo"
+
+
+def test_a_client_that_does_not_read_and_one_that_vanishes_hold_up_nobody(
+    ring: Ring, server: FoxgloveProcess
+) -> None:
+    deaf, gone, viewer = Viewer(server.url), Viewer(server.url), Viewer(server.url)
+    deaf.socket.recv_messages.pause()
+    gone.socket.socket.close()
+    writer, before = LiveWriter(ring), ring.written
+    for k in range(20_000):
+        writer.tick(*live_tick(k * 0.002))
+    assert ring.written == before + 20_000
+    assert viewer.shown(writer, 100.0)
+    assert server.alive
+    for each in (deaf, viewer):
+        each.socket.socket.close()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
+def test_no_socket_but_on_loopback(ring: Ring, server: FoxgloveProcess) -> None:
+    viewer = Viewer(server.url)
+    viewer.shown(LiveWriter(ring), 0.5)
+    found = sockets(server.pid)
+    listening = [address for table, address, _, state in found if table == "tcp" and state == "0A"]
+    assert len(listening) == 2
+    assert all(table == "tcp" and local.startswith("127.") for table, local, _, _ in found)
+    assert all(remote.startswith("127.") for _, _, remote, state in found if state != "0A")
+    viewer.socket.close()
+
+
+def test_it_ends_with_the_run(ring: Ring, server: FoxgloveProcess) -> None:
+    viewer = Viewer(server.url)
+    writer = LiveWriter(ring)
+    viewer.shown(writer, 0.5)
+    writer.status(1.0, "stopped", "over")
+    writer.end(1.0, "ok", "over")
+    until(lambda: not server.alive)
+    assert server.close()
+    results = [
+        viewer.decoded(topic, content).reason
+        for topic, _, content in rest(viewer)
+        if topic == "/status"
+    ]
+    assert results == ["over"]
+
+
+def test_it_goes_when_the_loop_is_killed(ring: Ring) -> None:
+    reading, writing = os.pipe()
+
+    def run() -> None:
+        process = FoxgloveProcess(ring, 0, HEAD, STARTED_NS)
+        os.write(writing, f"{process.pid} {process.port}".encode())
+        signal.pause()
+        process.close()
+
+    with child(run) as loop:
+        pid, port = map(int, os.read(reading, 100).split())
+        connect(f"ws://127.0.0.1:{port}", subprotocols=[PROTOCOL], proxy=None).close()
+        os.kill(loop, signal.SIGKILL)
+    os.close(reading)
+    os.close(writing)
+    until(lambda: not running(pid))
+
+
+def test_a_port_that_is_taken_is_told_before_anything_starts(
+    ring: Ring, server: FoxgloveProcess
+) -> None:
+    with pytest.raises(InputError, match=f"TCP 127.0.0.1:{server.port}: cannot listen there"):
+        FoxgloveProcess(ring, server.port, HEAD, STARTED_NS)
+
+
+def test_what_to_install_is_told(ring: Ring, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("atlas_cueing.live.output.foxglove_server.find_spec", lambda _: None)
+    with pytest.raises(InputError, match=r"pip install 'atlas_cueing\[foxglove\]'"):
+        FoxgloveProcess(ring, 0, HEAD, STARTED_NS)
 
 
 def rest(viewer: Viewer) -> Iterator[tuple[str, int, bytes]]:
