@@ -180,7 +180,8 @@ class Container:
 def _serialise(record: McapRecord) -> bytes:
     builder = RecordBuilder()
     record.write(builder)
-    return bytes(builder.end())  # type: ignore[no-untyped-call]  # mcap gives types to all but this one
+    # mcap gives types to all but this one
+    return bytes(builder.end())  # type: ignore[no-untyped-call]
 
 
 def _message_index(channel: int, entries: bytes) -> bytes:

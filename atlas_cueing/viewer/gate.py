@@ -46,7 +46,8 @@ def gated(token: str = "") -> Iterator[None]:
     from websockets.asyncio import server
 
     serve: Any = server.serve
-    server.serve = _with_gate(serve, server.ServerConnection, token)  # type: ignore[assignment, misc]
+    gated: Any = _with_gate(serve, server.ServerConnection, token)
+    server.serve = gated  # type: ignore[misc]
     try:
         yield
     finally:

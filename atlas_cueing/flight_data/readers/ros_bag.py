@@ -5,7 +5,7 @@ through the message (`linear_acceleration.x`). `header.stamp` is the sender's ti
 the recorder's.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -151,8 +151,7 @@ def _values(message: Any, part: Wanted, place: str) -> list[float]:
 
 def _lacks(part: Wanted, rows: Iterable[tuple[int, int, list[float]]]) -> bool:
     """Whether the file has none of an attitude that may be missing."""
-    empty: Callable[[list[float]], bool] = lambda v: not any(x == x and x != 0.0 for x in v)  # noqa: E731
-    return part.optional and all(empty(values) for _, _, values in rows)
+    return part.optional and all(x != x or x == 0.0 for _, _, values in rows for x in values)
 
 
 def _attribute(message: Any, path: str, place: str, key: str) -> Any:

@@ -167,7 +167,8 @@ def _read(path: Path, root_tag: str) -> ET.Element:
         )
         if size > most:
             raise InputError(f"{path}: {size} bytes; at most {most}")
-        parser = ET.XMLParser(target=_ShallowTree(path))  # noqa: S314  expat itself refuses entity bombs
+        # expat itself refuses entity bombs
+        parser = ET.XMLParser(target=_ShallowTree(path))  # noqa: S314
         tree: ET.Element = ET.parse(path, parser).getroot()  # noqa: S314
     except (OSError, ET.ParseError, ValueError, LookupError) as error:
         raise InputError(f"{path}: not a readable XML file: {error}") from error
