@@ -8,6 +8,7 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path
 
+from ..cueing import METHODS
 from ..errors import AtlasError
 from ..run import run_scenario
 from ..scenario import load_scenario
@@ -35,6 +36,8 @@ def warm_up() -> str:
     with suppress(AtlasError, OSError), tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "scenario.toml")
         file.write_text(_RIDE, "utf-8")
+        for method in METHODS:  # each has a table of keys of its own
+            load_scenario(file, [f"cueing.method={method}"])
         scenario = load_scenario(file)
         run_id(scenario)
         return run_scenario(scenario, Path(folder, "warm_up.mcap")).result
