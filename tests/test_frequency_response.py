@@ -3,8 +3,6 @@
 Its arithmetic, and the pipeline's linear theory as a second derivation.
 """
 
-from collections.abc import Sequence
-from dataclasses import replace
 from math import isnan, pi
 from typing import Any
 
@@ -17,15 +15,18 @@ from atlas_cueing.cueing import (
     AttitudeParameters,
     BlendParameters,
     ClassicalParameters,
+    CueSource,
     ForceParameters,
     HedgeParameters,
     PerceptualParameters,
     StillParameters,
 )
 from atlas_cueing.cueing.felt_turn import decaying_gain, lasting_gain
+from atlas_cueing.pipeline import Pipeline
 from atlas_cueing.run import build_pipeline
 from atlas_cueing.scenario import Scenario, load_scenario
 from atlas_cueing.signals import STANDARD_GRAVITY as G
+from atlas_cueing.signals import Cue, VehicleState
 
 SWEEP = ROOT / "scenarios" / "signal_sweep.toml"
 
@@ -258,20 +259,24 @@ def test_a_force_that_follows_is_the_force_of_the_attitude() -> None:
 
 
 class Late:
-    """A pipeline that is one tick late."""
+    """Cueing that is one tick late."""
 
-    def __init__(self, scenario: Scenario, dt: float) -> None:
-        self._pipeline, self._state = build_pipeline(scenario, dt), None
+    def __init__(self, cueing: CueSource) -> None:
+        self._cueing = cueing
+        self._before: VehicleState | None = None
 
-    def block(self, states: Sequence[Any]) -> list[Any]:
-        before = [self._state or states[0], *states[:-1]]
-        self._state = states[-1]
-        late = self._pipeline.block(before)
-        return [replace(tick, vehicle=state) for tick, state in zip(late, states, strict=True)]
+    def step(self, vehicle: VehicleState) -> Cue:
+        before, self._before = self._before or vehicle, vehicle
+        return self._cueing.step(before)
+
+
+def late_pipeline(scenario: Scenario, dt: float) -> Pipeline:
+    built = build_pipeline(scenario, dt)
+    return Pipeline(Late(built.cueing), built.smoothing, built.wheels)
 
 
 @pytest.mark.usefixtures("quick")
-@pytest.mark.parametrize(("pipeline", "ticks"), [(build_pipeline, 0.0), (Late, 1.0)])
+@pytest.mark.parametrize(("pipeline", "ticks"), [(build_pipeline, 0.0), (late_pipeline, 1.0)])
 def test_a_delay_is_measured_in_ticks(
     monkeypatch: pytest.MonkeyPatch, pipeline: Any, ticks: float
 ) -> None:

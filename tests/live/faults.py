@@ -2,9 +2,11 @@
 
 from collections.abc import Callable, Mapping
 from math import nan
+from typing import NoReturn
 
 from atlas_cueing.live.control.state_machine import State
-from atlas_cueing.signals import Motion
+from atlas_cueing.rotation import ZERO
+from atlas_cueing.smoothing.traction import KeptTraction
 
 from .rig import Rig
 
@@ -46,57 +48,53 @@ def late(rig: Rig) -> None:
     rig.tick(lateness=0.025)
 
 
+class Defect:
+    """Cueing, or contacts that smoothing asks: it raises, whatever it is asked."""
+
+    sphere_from_wheels = (ZERO, ZERO, ZERO)
+
+    def step(self, _: object) -> NoReturn:
+        raise DefectError("cueing")
+
+    def excess(self, *_: object) -> NoReturn:
+        raise DefectError("smoothing")
+
+
 def broken_cueing(rig: Rig) -> None:
-    once(rig, rig.platform._cueing)
+    if rig.platform._cueing is not None:
+        once(rig, rig.platform, "_cueing", Defect())
+    else:
+        rig.tick()
 
 
 def broken_smoothing(rig: Rig) -> None:
-    once(rig, rig.platform._pipeline.smoothing)
+    of = rig.platform._pipeline.smoothing
+    once(rig, of, "_kept", KeptTraction(rig.dt, Defect(), of._sphere, of._stage))  # type: ignore[arg-type]
 
 
-def once(rig: Rig, part: object) -> None:
-    """One tick with a part that raises."""
-
-    def step(_: object) -> None:
-        raise DefectError(type(part).__name__)
-
-    if part is not None:
-        part.step = step  # type: ignore[attr-defined]
+def once(rig: Rig, part: object, name: str, wrong: object) -> None:
+    """One tick in which a part has something wrong in it; what it makes of it, it keeps."""
+    right = getattr(part, name)
+    setattr(part, name, wrong)
+    untouched = repr(getattr(part, name))
     rig.tick()
-    if part is not None:
-        del part.step  # type: ignore[attr-defined]
+    if repr(getattr(part, name)) == untouched:
+        setattr(part, name, right)
 
 
-def illegal(corrupt: Callable[[Motion], Motion]) -> Fault:
-    """One motion that smoothing should never give."""
-
-    def fault(rig: Rig) -> None:
-        smoothing = rig.platform._pipeline.smoothing
-        step = smoothing.step
-        smoothing.step = lambda cue: corrupt(step(cue))  # type: ignore[method-assign]
-        rig.tick()
-        del smoothing.step  # type: ignore[method-assign]
-
-    return fault
+def shifted_stage(rig: Rig) -> None:
+    """The stage leaps by a centimetre in one tick."""
+    rail = rig.platform._pipeline.smoothing._stage.axes[0]
+    once(rig, rail, "p", rail.p + 0.01)
 
 
-def shifted(m: Motion) -> Motion:
-    x, y, z = m.p_WS_W
-    return Motion(
-        m.time, m.q_WS, m.w_WS_W, m.alpha_WS_W, (x + 0.01, y, z), m.v_WS_W, m.a_WS_W, m.limited
-    )
-
-
-def illegal_wheels(angle: float, speed: float) -> Fault:
-    """One motion of the wheels that smoothing should never give, off by so much."""
+def wrong_wheel(name: str, by: float) -> Fault:
+    """In one tick angle or speed of a wheel (rad, s) are off by so much."""
 
     def fault(rig: Rig) -> None:
-        smoothing = rig.platform._pipeline.smoothing
-        (q, *others), (w, *more), acceleration = smoothing.wheel_motion()
-        wrong = (q + angle, *others), (w + speed, *more), acceleration
-        smoothing.wheel_motion = lambda: wrong  # type: ignore[method-assign]
-        rig.tick()
-        del smoothing.wheel_motion  # type: ignore[method-assign]
+        sphere = rig.platform._pipeline.smoothing._sphere
+        first, second, third = getattr(sphere, name)
+        once(rig, sphere, name, (first + by, second, third))
 
     return fault
 
@@ -111,10 +109,10 @@ MATRIX: Mapping[str, tuple[Fault, frozenset[State], State]] = {
     "25 ms late": (late, ALL - FAULTS - AT_REST, State.FAULT_STOPPING),
     "cueing raises": (broken_cueing, FOLLOWING, State.FAULT_STOPPING),
     "smoothing raises": (broken_smoothing, SMOOTHED, State.FAULT_STOPPING),
-    "stage shifted": (illegal(shifted), SMOOTHED, State.FAULT_STOPPING),
-    "wheel jerked": (illegal_wheels(0.0, 0.5), SMOOTHED, State.FAULT_STOPPING),
-    "wheel shifted": (illegal_wheels(0.1, 0.0), SMOOTHED, State.FAULT_STOPPING),
-    "not a number": (illegal_wheels(0.0, nan), SMOOTHED, State.FAULT_STOPPING),
+    "stage shifted": (shifted_stage, SMOOTHED, State.FAULT_STOPPING),
+    "wheel jerked": (wrong_wheel("_speed", 0.5), SMOOTHED, State.FAULT_STOPPING),
+    "wheel shifted": (wrong_wheel("_angle", 0.1), SMOOTHED, State.FAULT_STOPPING),
+    "not a number": (wrong_wheel("_angle", nan), SMOOTHED, State.FAULT_STOPPING),
 }
 LEADS_ON = {
     State.FAULT_STOPPING: {State.STOPPED},

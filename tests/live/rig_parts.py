@@ -1,10 +1,12 @@
 """What a rig has around it: a clock, a vehicle, a tape, and an operator."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from math import cos, inf, sin
 
 from atlas_cueing.live.control.command import Command
+from atlas_cueing.live.control.controller import LiveController
+from atlas_cueing.live.control.slot import Slot
 from atlas_cueing.live.input.source import SourceReading
 from atlas_cueing.rotation import (
     IDENTITY,
@@ -116,6 +118,20 @@ class Tape:
         self.commands.append(command)
         self.sent.append((sequence, time, due, state))
         return True
+
+
+class Watched:
+    """A controller in the loop's hands, and what is done before each of its ticks."""
+
+    def __init__(self, controller: LiveController, before: Callable[[], None]) -> None:
+        self._controller, self._before = controller, before
+
+    def tick(self, slot: Slot) -> tuple[Tick, Command]:
+        self._before()
+        return self._controller.tick(slot)
+
+    def __getattr__(self, name: str) -> object:
+        return getattr(self._controller, name)
 
 
 @dataclass

@@ -11,6 +11,7 @@ from atlas_cueing.live.control.state_machine import State
 from atlas_cueing.live.loop import LEAD
 
 from .rig import Rig
+from .rig_parts import Watched
 
 DT = 0.01
 
@@ -22,7 +23,7 @@ def run(delays: dict[int, float], ticks: int = 60, costs: dict[int, float] | Non
     """
     rig = Rig(DT, duration=1e9)
     costs = costs or {}
-    wait, tick = rig.clock.sleep_until, rig.controller.tick
+    wait = rig.clock.sleep_until
     begun = [0]
 
     def sleep_until(time: float) -> None:
@@ -30,14 +31,13 @@ def run(delays: dict[int, float], ticks: int = 60, costs: dict[int, float] | Non
         rig.clock.delay = delays.get(begun[0], 0.0)
         wait(time)
 
-    def costly(*arguments: float) -> object:
+    def costly() -> None:
         rig.clock.time += costs.get(begun[0], 0.0)
         if begun[0] == ticks:
             rig.wanted.signals = 1
-        return tick(*arguments)  # type: ignore[arg-type]
 
     rig.clock.sleep_until = sleep_until  # type: ignore[method-assign]
-    rig.controller.tick = costly  # type: ignore[assignment, method-assign]
+    rig.loop._controller = Watched(rig.controller, costly)  # type: ignore[assignment]
     rig.loop.run()
     return rig
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from atlas_cueing.live.control.command import Command, axes_of
 from atlas_cueing.live.control.drive_status import DriveStatus
+from atlas_cueing.live.input.source import SourceReading
 from atlas_cueing.live.output import hello, status
 from atlas_cueing.live.output.hello import Hello, limits_hash
 from atlas_cueing.live.output.receiver import SetPointReceiver
@@ -118,28 +119,19 @@ def fly(
     )
     drives.start(rig)
     rig.controller.engage()
-    wait, tick = rig.clock.sleep_until, rig.controller.tick
+    wait, read = rig.clock.sleep_until, rig.source.read
 
     def sleep_until(time: float) -> None:
         rig.clock.delay = delays(rig.loop.ticks)
         before_slot(rig, rig.loop.ticks)
         wait(time)
 
-    def costly(slot: object) -> object:
-        step = rig.platform.step
-
-        def slow(vehicle: object) -> object:
-            rig.clock.time += cost(rig.loop.ticks)
-            return step(vehicle)  # type: ignore[arg-type]
-
-        rig.platform.step = slow  # type: ignore[assignment, method-assign]
-        try:
-            return tick(slot)  # type: ignore[arg-type]
-        finally:
-            del rig.platform.step  # type: ignore[method-assign]
+    def slow(time: float, advance: bool) -> SourceReading:
+        rig.clock.time += cost(rig.loop.ticks)
+        return read(time, advance)
 
     rig.clock.sleep_until = sleep_until  # type: ignore[method-assign]
-    rig.controller.tick = costly  # type: ignore[assignment, method-assign]
+    rig.source.read = slow  # type: ignore[method-assign]
     rig.loop.run()
     drives.look(rig.tape.sent[-1][2] + 600_000_000)
     return rig, drives

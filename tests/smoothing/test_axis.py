@@ -17,7 +17,7 @@ from atlas_cueing.errors import PlanningError
 from atlas_cueing.smoothing import axis as axis_module
 from atlas_cueing.smoothing.axis import AxisSmoothing, Step
 
-from .between import Recorder
+from .between import Between
 
 DT, SPEED, ACCELERATION, JERK = 1.0 / 120.0, 31.0, 60.0, 600.0
 FAR = (SPEED, 0.0)  # a target that no tick reaches, so that ruckig plans
@@ -115,7 +115,9 @@ def test_a_distant_target_is_not_met_until_it_is() -> None:
     shortest = 2.0 * np.sqrt(5.0 / JERK)
     assert shortest <= ticks * DT <= shortest + DT + 0.011
     assert (v, a) == (pytest.approx(5.0), pytest.approx(0.0, abs=1e-12))
-    assert axis.towards(v, a, 5.0, 0.0) == Step(pytest.approx(5.0 * DT), 5.0, 0.0, True)  # type: ignore[arg-type]
+    again = axis.towards(v, a, 5.0, 0.0)
+    assert (again.v, again.a, again.met) == (5.0, 0.0, True)
+    assert again.displacement == pytest.approx(5.0 * DT)
 
 
 @pytest.mark.parametrize("dt", [1.0 / 1000.0, 1.0 / 500.0, 1.0 / 120.0])
@@ -225,45 +227,59 @@ def pretend(axis: AxisSmoothing, told: dict[str, float]) -> None:
 def test_limits_hold_at_and_between_ticks_for_any_targets(
     dt: float, targets: list[tuple[float, float]]
 ) -> None:
-    fly(Recorder(dt, SPEED, ACCELERATION, JERK), targets)
+    fly(Between(make(dt)), targets)
 
 
 @pytest.mark.parametrize("dt", [1.0 / 1000.0, 1.0 / 120.0, 1.0 / 20.0])
 def test_limits_hold_at_and_between_ticks_for_random_targets(dt: float) -> None:
     """Around the limits, where the clipping decides; all three ways to make a step are taken."""
     random = np.random.default_rng(11)
-    axis = Recorder(dt, SPEED, ACCELERATION, JERK)
+    between = Between(make(dt))
     targets = np.stack(
         [random.normal(0.0, SPEED, 1500), random.normal(0.0, 2.0 * ACCELERATION, 1500)], axis=1
     )
     targets = np.repeat(targets, random.integers(1, 6, len(targets)), axis=0)
     near = random.random(len(targets)) < 0.2
-    fly(axis, [(nan, 0.0) if random.random() < 0.02 else tuple(t) for t in targets], near.tolist())
-    assert axis.kinds["stop"] > 10
-    assert axis.kinds["halves"] > 100
+    wishes = [(nan, 0.0) if random.random() < 0.02 else tuple(t) for t in targets]
+    fly(between, wishes, near.tolist())
+    assert between.kinds["stop"] > 10
+    assert between.kinds["halves"] > 100
     # in a short tick one jerk serves both halves, and the two agree
-    assert axis.kinds["ruckig"] > 20 or dt < 0.005
+    assert between.kinds["ruckig"] > 20 or dt < 0.005
 
 
-def fly(axis: Recorder, targets: list[tuple[float, float]], near: list[bool] | None = None) -> None:
+def test_a_step_that_no_jerk_inside_its_limit_leads_to_has_no_path() -> None:
+    between = Between(make())
+    v, a = 0.5 * JERK * DT * DT, JERK * DT
+    assert between.path(0.0, 0.0, Step(v * DT / 3.0, v, a, False))[-1].tolist() == pytest.approx(
+        [v * DT / 3.0, v, a]
+    )
+    for wrong in ((1.0, 1.001), (1.001, 1.0), (1.001, 1.001)):
+        with pytest.raises(AssertionError, match="no motion inside the limits"):
+            between.path(0.0, 0.0, Step(v * DT / 3.0, v * wrong[0], a * wrong[1], False))
+
+
+def fly(
+    between: Between, targets: list[tuple[float, float]], near: list[bool] | None = None
+) -> None:
     """Fly towards each target for a tick (or near where the axis is going anyway).
 
     Check limits along every path.
     """
     v = a = 0.0
-    bound = 1.0 + 1e-9
+    axis, times, bound = between.axis, between.times, 1.0 + 1e-9
     for target, close in zip(targets, near or [False] * len(targets), strict=True):
         wish = (v + a * axis.dt, a) if close else target
         try:
             step = axis.towards(v, a, *wish)
         except PlanningError:
             step = axis.stopping(v, a)
-        path = axis.path
+        path = between.path(v, a, step)
         assert np.all(np.isfinite(path))
         assert np.max(np.abs(path[:, 1])) <= SPEED * bound
         assert np.max(np.abs(path[:, 2])) <= ACCELERATION * bound
         assert np.max(np.abs(np.diff(path[:, 2]))) <= JERK * axis.dt / 10.0 * (1.0 + 1e-6)
-        mean = np.diff(path[:, 1]) - np.diff(axis.times) * 0.5 * (path[1:, 2] + path[:-1, 2])
+        mean = np.diff(path[:, 1]) - np.diff(times) * 0.5 * (path[1:, 2] + path[:-1, 2])
         assert np.max(np.abs(mean)) <= 0.25 * JERK * (axis.dt / 10.0) ** 2 * (1.0 + 1e-6) + 1e-12
         v, a = step.v, step.a
 

@@ -7,9 +7,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from atlas_cueing.signals import Cue
-from atlas_cueing.smoothing import sphere
+from atlas_cueing.smoothing.axis import Step
 
-from .between import Recorder
+from .between import Between
 from .cues import UPRIGHT, Array, cue, smooth, turning, wild
 from .flights import Flight, check, fly, wheel_turns
 from .platforms import EQUILATERAL, ORTHOGONAL, PLATFORMS, UNEQUAL, Platform
@@ -178,13 +178,20 @@ def test_the_orientation_is_the_integral_of_the_wheels(platform: Platform) -> No
 
 
 @pytest.mark.parametrize("dt", DTS)
-def test_wheel_limits_hold_between_ticks(dt: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sphere, "AxisSmoothing", Recorder)
+def test_wheel_limits_hold_between_ticks(dt: float) -> None:
     smoothing, platform = ORTHOGONAL.smoothing(dt), ORTHOGONAL
-    paths = []
+    wheels = [Between(axis) for axis in smoothing._sphere.axes]
+    paths, motion = [], np.zeros((3, 3))
     for asked in wild(dt, 1500, np.random.default_rng(12)):
         smoothing.step(asked)
-        paths.append([axis.path for axis in smoothing._sphere._axes])
+        before, motion = motion, np.transpose(smoothing.wheel_motion())
+        turned = zip(wheels, before.tolist(), motion.tolist(), strict=True)
+        paths.append(
+            [
+                wheel.path(v, a, Step(angle - start, speed, acceleration, False))
+                for wheel, (start, v, a), (angle, speed, acceleration) in turned
+            ]
+        )
     path = np.array(paths)
     most = np.max(np.abs(path), axis=(0, 2))
     assert np.all(most[:, 1] <= np.array(platform.wheels.speed) * (1.0 + 1e-9))

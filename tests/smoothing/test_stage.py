@@ -14,10 +14,11 @@ from hypothesis import strategies as st
 
 from atlas_cueing.rotation import IDENTITY, ZERO
 from atlas_cueing.signals import Cue, StageLimits
-from atlas_cueing.smoothing import StageSmoothing, Stop, stage
+from atlas_cueing.smoothing import StageSmoothing, Stop
+from atlas_cueing.smoothing.axis import Step
 from atlas_cueing.smoothing.stage import RailAxis
 
-from .between import Recorder
+from .between import Between
 from .cues import sines
 
 TRAVEL, SPEED, ACCELERATION, JERK = 1.0, 1.5, 6.0, 60.0
@@ -36,24 +37,18 @@ anything = st.floats() | st.sampled_from([nan, inf, -inf, 1e300, -1e308, 5e-324]
 cues = st.tuples(anything, anything, anything)
 
 
-@pytest.fixture
-def recorded(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let every RailAxis keep its path between ticks."""
-    monkeypatch.setattr(stage, "AxisSmoothing", Recorder)
-
-
 def fly(dt: float, limit: tuple[float, ...], asked: Iterable[tuple[float, ...]]) -> float:
     """Ask for each cue for a tick; check every limit along the way.
 
     The largest share of the travel used.
     """
     axis, paths = RailAxis(dt, *limit), []
-    recorder = axis._axis
-    assert isinstance(recorder, Recorder)
+    between = Between(axis._axis)
     for cue in asked:
-        start = axis.p
+        p, v, a = axis.p, axis.v, axis.a
         axis.step(*cue)
-        paths.append(recorder.path + np.array([start, 0.0, 0.0]))
+        path = between.path(v, a, Step(axis.p - p, axis.v, axis.a, False))
+        paths.append(path + np.array([p, 0.0, 0.0]))
         assert paths[-1][-1].tolist() == pytest.approx([axis.p, axis.v, axis.a], rel=1e-9, abs=1e-9)
     path = np.stack(paths)
     assert np.all(np.isfinite(path))
@@ -63,7 +58,6 @@ def fly(dt: float, limit: tuple[float, ...], asked: Iterable[tuple[float, ...]])
     return float(used[0])
 
 
-@pytest.mark.usefixtures("recorded")
 @pytest.mark.parametrize("dt", DTS)
 @pytest.mark.parametrize("limit", LIMITS)
 def test_limits_hold_between_ticks_for_random_cues(
@@ -86,12 +80,9 @@ def test_limits_hold_between_ticks_for_random_cues(
 def test_limits_hold_for_any_cues(
     dt: float, limit: tuple[float, ...], asked: list[tuple[float, float, float]]
 ) -> None:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(stage, "AxisSmoothing", Recorder)
-        fly(dt, limit, asked)
+    fly(dt, limit, asked)
 
 
-@pytest.mark.usefixtures("recorded")
 @pytest.mark.parametrize(("dt", "limit"), ROOMY)
 @pytest.mark.parametrize("side", [-1.0, 1.0])
 def test_driven_at_the_rail_it_uses_the_travel_and_no_more(
@@ -103,7 +94,6 @@ def test_driven_at_the_rail_it_uses_the_travel_and_no_more(
     assert used > (0.9 if dt < 0.01 else 0.8), used
 
 
-@pytest.mark.usefixtures("recorded")
 @pytest.mark.parametrize(("dt", "limit"), ROOMY)
 @pytest.mark.parametrize("far", [1.5, 9.0])
 def test_a_cue_far_beyond_the_rail_ends_at_the_rail(

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 from atlas_cueing.loads import LoadModel, Preload
 from atlas_cueing.rotations import Array
 from atlas_cueing.scenario import load_platform
-from atlas_cueing.signals import Cue
+from atlas_cueing.signals import ContactRows, Cue
 from atlas_cueing.smoothing import Smoothing
 from atlas_cueing.wheels import Wheels
 
@@ -16,13 +16,27 @@ from .flights import Flight
 from .platforms import Platform
 
 
+class Blind:
+    """Rows that take every stop for one that keeps them: nobody looks at it."""
+
+    def __init__(self, rows: ContactRows) -> None:
+        self.sphere_from_wheels, self.excess = rows.sphere_from_wheels, rows.excess
+        self.rows, self.shortfall = rows.rows, rows.shortfall
+
+    def largest_excess(self, *_: object) -> float:
+        return -1.0
+
+
 class Kept:
     """A preset with masses, whose motions keep traction.
 
-    preload: straight down, N; halo: share of the preset's own preloads.
+    preload: straight down, N; halo: share of the preset's own preloads; blind: see `Blind`.
     """
 
-    def __init__(self, preset: str, preload: float, halo: float = 1.0) -> None:
+    def __init__(
+        self, preset: str, preload: float, halo: float = 1.0, *, blind: bool = False
+    ) -> None:
+        self._blind = blind
         file = load_platform(preset)
         down = Preload((0.0, 0.0, 1.0), preload)
         model = file.load_model()
@@ -46,8 +60,11 @@ class Kept:
             sphere_from_wheels=self.wheels.sphere_from_wheels,
             wheel_limits=replace(self.limits.wheels, **stop),
             stage_limits=replace(self.limits.stage, **stop),
-            contacts=self.model.kept_rows() if kept else None,
+            contacts=self._rows() if kept else None,
         )
+
+    def _rows(self) -> ContactRows:
+        return Blind(self.model.kept_rows()) if self._blind else self.model.kept_rows()
 
     def fly(self, dt: float, cues: list[Cue], *, kept: bool = True) -> Flight:
         step = self.smoothing(dt, kept=kept).step

@@ -70,12 +70,12 @@ class Found:
         self.normal = min(self.normal, float(normal[:, :3].min()))
 
 
-def ride(name: str, seed: int, ticks: int, *, kept: bool = True) -> Found:
+def ride(name: str, seed: int, ticks: int, *, kept: bool = True, blind: bool = False) -> Found:
     """Ride the platform of this name for so many ticks, in rides of `RIDE` at every rate in turn.
 
-    kept: False lets go of traction, so that something must be found.
+    kept: False lets go of traction, so that something must be found; and so does `blind`.
     """
-    platform, found = Kept(*PLATFORMS[name]), Found()
+    platform, found = Kept(*PLATFORMS[name], blind=blind), Found()
     for number in range(-(-ticks // RIDE)):
         random = np.random.default_rng([seed, list(PLATFORMS).index(name), number])
         dt = 1.0 / RATES[number % len(RATES)]

@@ -113,10 +113,10 @@ class Guard:
             self._latch(f"{breach}, at {command.time} s")
         return self.stop(command.time)
 
-    def stop(self, time: float) -> Command:
+    def stop(self, time: object) -> Command:
         """Return the next tick of the stop, for a tick at `time` (s) that has no command.
 
-        From then on every tick belongs to the stop.
+        From then on every tick belongs to the stop. A time that is none is made up.
         """
         if not self.stopping:
             self._latch(f"no command at {time} s")

@@ -20,6 +20,7 @@ from atlas_cueing.rotation import (
     multiply,
     norm,
     rotate,
+    subtract,
 )
 from atlas_cueing.signals import VehicleState
 
@@ -55,7 +56,7 @@ def test_a_member_that_is_right_draws_the_cabin_to_it(judge: str) -> None:
     for vehicle in free(DT, 60.0):
         q_WS, w_W = committee.step(vehicle)
         off.append(angle_between(up_in_cabin(q_WS), flip(vehicle.f_B)))
-        rates.append(norm(np.subtract(rotate(conjugate(q_WS), w_W), flip(vehicle.w_NB_B))))  # type: ignore[arg-type]
+        rates.append(norm(subtract(rotate(conjugate(q_WS), w_W), flip(vehicle.w_NB_B))))
     assert max(off) > radians(15.0)
     assert committee.shares[1] > 0.98
     assert max(off[-500:]) < radians(2.0)

@@ -1,5 +1,7 @@
 """One axis of the stage by plans: inside its limits, useful on onsets, else still."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from itertools import pairwise
 from typing import Any
@@ -12,11 +14,13 @@ from hypothesis import strategies as st
 from atlas_cueing.cueing import MpcParameters
 from atlas_cueing.cueing.stage.high_pass import HighPass
 from atlas_cueing.cueing.stage.mpc import MpcAxis, block_ticks, planning_ticks
-from atlas_cueing.cueing.stage.mpc_unconstrained import Plan
+from atlas_cueing.cueing.stage.mpc_qp import MpcProblem
 
 DT = 1.0 / 120.0
 LIMITS = (1.0, 1.5, 6.0, 60.0)
 SMALL = (0.05, 0.2, 2.0, 40.0)
+NARROW = (1e-9, 1e-9, 1e-9, 1e-9)
+"""Limits that every plan without them breaks."""
 DEFAULT = MpcParameters()
 EAGER = replace(DEFAULT, first_share=1.0, doubt=1e12, excess=100.0)
 """Moves for the whole demand, whatever comes of it, and well into the limits."""
@@ -31,6 +35,43 @@ def axis(
 def fly(moved: MpcAxis, demands: Any) -> np.ndarray:
     """p, v, a before and after each tick, a row each; from rest in the centre."""
     return np.array([(0.0, 0.0, 0.0), *(moved.step(float(demand)) for demand in demands)])
+
+
+def watched(
+    moved: MpcAxis, demands: Any, before: Any = (0.0, 0.0, 0.0)
+) -> tuple[np.ndarray, list[int]]:
+    """What `fly` gives, from the state before, and the ticks in which a new plan was begun."""
+    path, begun = [tuple(before)], []
+    for tick, demand in enumerate(demands):
+        flown = moved._flown
+        path.append(moved.step(float(demand)))
+        if moved._flown is not None and moved._flown is not flown:
+            begun.append(tick)
+    return np.array(path), begun
+
+
+class Unreliable:
+    """A solver that fails every so many times it is asked."""
+
+    def __init__(self, solver: Any, every: int) -> None:
+        self._every, self.asked, self.failed, self.solve = every, 0, 0, solver.solve
+        self._update = solver.update
+
+    def update(self, **problem: np.ndarray) -> int:
+        self.asked += 1
+        if self.asked % self._every:
+            return int(self._update(**problem))
+        self.failed += 1
+        return -1
+
+
+@contextmanager
+def failing(problem: MpcProblem, every: int) -> Iterator[Unreliable]:
+    """The problem with an unreliable solver, which is asked for every plan."""
+    kept, narrow = (problem._solver, problem.unlimited), MpcProblem([1.0] * 3, 1.0, 1.0, NARROW)
+    problem._solver, problem.unlimited = Unreliable(problem._solver, every), narrow.unlimited
+    yield problem._solver
+    problem._solver, problem.unlimited = kept
 
 
 def wild(seed: int, ticks: int) -> np.ndarray:
@@ -67,38 +108,27 @@ def between(path: np.ndarray, dt: float) -> np.ndarray:
     ("dt", "limits"), [(DT, LIMITS), (DT, SMALL), (1e-3, LIMITS), (0.05, LIMITS)]
 )
 def test_all_limits_hold_between_ticks_too_and_no_plan_is_missing(
-    dt: float, limits: tuple[float, float, float, float], monkeypatch: pytest.MonkeyPatch
+    dt: float, limits: tuple[float, float, float, float]
 ) -> None:
     """Thousands of plans for demands without any sense; the limits are used up to their share."""
-    moved, missing, made = axis(dt, limits), 0, 0
-    solve = moved.problem.solve
-
-    def counted(*state: float) -> Plan | None:
-        nonlocal missing, made
-        plan = solve(*state)
-        missing, made = missing + (plan is None), made + 1
-        return plan
-
-    monkeypatch.setattr(moved.problem, "solve", counted)
-    path = fly(moved, wild(11, 8000))
+    moved = axis(dt, limits)
+    path, begun = watched(moved, wild(11, 8000))
     used = np.max(np.abs(between(path, dt)), axis=0) / limits[:3]
     assert np.all(used <= 1.0), used
     assert np.max(used) > 0.99
     assert np.max(np.abs(np.diff(path[:, 2]))) <= dt * limits[3] * (1.0 + 1e-9)
-    assert missing == 0
-    assert made == np.ceil(8000 / planning_ticks(dt, 50.0))
+    assert begun == list(range(0, 8000, planning_ticks(dt, 50.0)))
 
 
 @pytest.mark.parametrize("ticks", [1, 37, 160, 1001])
-def test_without_new_plans_it_goes_on_to_a_standstill_inside_the_limits(
-    ticks: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_new_plans_it_goes_on_to_a_standstill_inside_the_limits(ticks: int) -> None:
     """The solver fails from some tick on, under full demand; afterwards it is back."""
     moved, demand = axis(), wild(5, 1400)
     path = fly(moved, demand[:ticks])
-    with monkeypatch.context() as patched:
-        patched.setattr(moved.problem, "solve", lambda *_: None)
-        tail = np.array([path[-1], *(moved.step(1e3) for _ in range(int(6.0 / DT)))])
+    with failing(moved.problem, every=1) as solver:
+        tail, begun = watched(moved, [1e3] * int(6.0 / DT), path[-1])
+    assert (begun, solver.failed) == ([], solver.asked)
+    assert solver.asked == len(range(-ticks % 2, int(6.0 / DT), 2))
     assert np.all(np.max(np.abs(between(tail, DT)), axis=0) <= LIMITS[:3])
     assert np.max(np.abs(np.diff(tail[:, 2]))) <= DT * LIMITS[3] * (1.0 + 1e-9)
     assert tuple(tail[-1][1:]) == (0.0, 0.0)
@@ -108,27 +138,17 @@ def test_without_new_plans_it_goes_on_to_a_standstill_inside_the_limits(
     assert np.all(np.max(np.abs(back), axis=0) <= LIMITS[:3])
 
 
-def test_one_failure_now_and_then_goes_unnoticed_but_for_the_plan_s_age(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_one_failure_now_and_then_goes_unnoticed_but_for_the_plan_s_age() -> None:
     """Without every third plan the stage stays inside all limits.
 
     A plan then begins in the middle of the one before.
     """
-    moved, calls, found = axis(), 0, 0
-    solve = moved.problem.solve
-
-    def unreliable(*state: float) -> Plan | None:
-        nonlocal calls, found
-        calls += 1
-        plan = solve(*state) if calls % 3 else None
-        found += plan is not None
-        return plan
-
-    monkeypatch.setattr(moved.problem, "solve", unreliable)
-    path = fly(moved, wild(7, 6000))
+    moved = axis()
+    with failing(moved.problem, every=3) as solver:
+        path, begun = watched(moved, wild(7, 6000))
     assert np.all(np.max(np.abs(between(path, DT)), axis=0) <= LIMITS[:3])
-    assert found == calls - calls // 3
+    assert (solver.asked, solver.failed) == (2999, 999)  # the first demand is none
+    assert len(begun) == 2001
 
 
 def test_far_from_the_limits_it_is_the_onset_filter() -> None:
@@ -221,15 +241,10 @@ def test_the_first_block_of_the_defaults_is_one_period() -> None:
         assert block_ticks(period, DEFAULT.length * hz, DEFAULT.blocks)[:2] == [period, period]
 
 
-def test_a_late_start_shifts_the_plans(monkeypatch: pytest.MonkeyPatch) -> None:
-    begun = []
+def test_a_late_start_shifts_the_plans() -> None:
+    first = []
     for delay in (0, 1, 2, 5):
-        moved, ticks = MpcAxis(1e-3, 0.7, 0.2, 5.0, LIMITS, EAGER, delay), []
-        for tick in range(100):
-            monkeypatch.setattr(
-                moved, "_plan", lambda _, tick=tick, ticks=ticks: ticks.append(tick)
-            )
-            moved.step(1.0)
-        assert set(np.diff(ticks)) == {20}
-        begun.append(ticks[0])
-    assert begun == [0, 1, 2, 5]
+        _, begun = watched(MpcAxis(1e-3, 0.7, 0.2, 5.0, LIMITS, EAGER, delay), [1.0] * 100)
+        assert set(np.diff(begun)) == {20}
+        first.append(begun[0])
+    assert first == [0, 1, 2, 5]

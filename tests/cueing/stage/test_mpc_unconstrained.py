@@ -54,7 +54,7 @@ def test_both_answers_occur() -> None:
 
 def test_the_solver_is_asked_only_where_limits_matter() -> None:
     problem = MpcProblem(DURATIONS, OMEGA, FADE, LIMITS)
-    del problem._solver
+    problem._solver = None
     plan = problem.solve(*STATES[1])
     assert plan is not None
     assert plan.jerks == problem.unlimited.plan(STATES[1]).jerks

@@ -2,6 +2,8 @@
 
 from dataclasses import fields, replace
 
+from installed import COMPILED
+
 from atlas_cueing.live.control.command import Command
 from atlas_cueing.live.control.guard import Guard
 
@@ -29,8 +31,27 @@ def underway(ticks: int = 4) -> Guard:
     return guard
 
 
-def spoilt(one: Command, field: str, place: int, value: object) -> Command:
-    """One number of the command replaced."""
+def spoilt(one: Command, field: str, place: int, value: float) -> Command:
+    """One number of the command replaced by another."""
+    return replace(one, **_with(one, field, place, value))
+
+
+def misshapen(one: Command, field: str, place: int, value: object) -> Command | None:
+    """One number of the command replaced by what is none, as far as `made` makes it."""
+    return made(one, **_with(one, field, place, value))
+
+
+def made(one: Command, **wrong: object) -> Command | None:
+    """The command with fields of another kind; None where it is compiled, which makes no such."""
+    try:
+        return replace(one, **wrong)
+    except TypeError:
+        assert COMPILED
+        return None
+
+
+def _with(one: Command, field: str, place: int, value: object) -> dict[str, object]:
     old = getattr(one, field)
-    new = value if field == "time" else tuple(value if k == place else x for k, x in enumerate(old))
-    return replace(one, **{field: new})
+    if field == "time":
+        return {field: value}
+    return {field: tuple(value if k == place else x for k, x in enumerate(old))}

@@ -1,5 +1,7 @@
 """The platform in each state: how it begins, where it leads, and that no stream has a gap."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -136,9 +138,10 @@ def test_the_first_cueing_is_not_built_in_the_tick_that_sets_out() -> None:
 def test_a_cue_that_is_not_finite_is_refused(bad: float) -> None:
     rig = Rig(settings=QUICK)
     rig.bring_to(State.RUNNING)
-    cueing = rig.platform._cueing
-    assert cueing is not None
-    cueing.step = lambda vehicle: Cue(vehicle.time, IDENTITY, (bad, 0.0, 0.0), ZERO, ZERO, ZERO)  # type: ignore[method-assign]
+    assert rig.platform._cueing is not None
+    rig.platform._cueing = SimpleNamespace(
+        step=lambda vehicle: Cue(vehicle.time, IDENTITY, (bad, 0.0, 0.0), ZERO, ZERO, ZERO)
+    )
     with pytest.raises(PlanningError, match="not finite"):
         rig.platform.step(
             VehicleState(rig.tape.ticks[-1].motion.time + rig.dt, IDENTITY, ZERO, (0.0, 0.0, -9.8))
