@@ -29,7 +29,7 @@ from atlas_cueing.pipeline import Pipeline
 from atlas_cueing.run import run_scenario
 from atlas_cueing.scenario import load_platform, load_scenario
 from atlas_cueing.signals import Cue, Motion, Tick, Timing, VehicleState, WheelSpeeds
-from atlas_cueing.smoothing import Smoothing
+from atlas_cueing.smoothing import Smoothing, axis
 from atlas_cueing.wheels import Wheels
 
 SCENARIO = """
@@ -173,6 +173,7 @@ def as_python() -> list[str]:
     for thing in DOCUMENTED:
         names = [n for n in inspect.signature(thing).parameters if n != "self"]
         found.append(f"{thing.__name__}{names}: {inspect.getdoc(thing)}")
+    found += [str(module.__doc__) for module in (rotation, axis)]
     return found
 
 

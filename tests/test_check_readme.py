@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from installed import ROOT, needs_source_tree
 
-ROOT = Path(__file__).parents[1]
 loader = SourceFileLoader("check_readme", str(ROOT / "tools" / "check_readme"))
 spec = spec_from_loader(loader.name, loader)
 assert spec
@@ -69,6 +69,7 @@ def test_long_commands_are_shortened_by_their_own_options(command: str, run: str
     assert tool.shortened(command) == run
 
 
+@needs_source_tree
 def test_every_shortened_command_is_in_readme() -> None:
     found = [
         command for line in tool.lines(tool.texts(ROOT)) for command in (*line.beside, line.command)

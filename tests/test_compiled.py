@@ -9,12 +9,14 @@ from pathlib import Path
 
 import pytest
 from building import PROJECT, build, build_wheel, version_of
+from installed import needs_source_tree
 
 from atlas_cueing.cueing import CAUSAL_METHODS
 
 sys.path.append(str(PROJECT / "tools"))
 import build_compiled
 
+pytestmark = needs_source_tree
 PROBE = Path(__file__).with_name("compiled_probe.py")
 OBSTACLE = build_compiled.obstacle()
 needs_a_compiler = pytest.mark.skipif(bool(OBSTACLE), reason=OBSTACLE)

@@ -7,10 +7,9 @@ from pathlib import Path
 
 import pytest
 from documented import add_docstrings
+from installed import PACKAGE
 
-PACKAGE = Path(__file__).parents[1] / "atlas_cueing"
-
-SOURCE = '''
+SOURCE = '''"""Turns \\"all\\"."""
 def turn(q):
     """Turn \\"q\\" by 3°."""
 
@@ -36,6 +35,10 @@ CODE = r"""
     .tp_flags = Py_TPFLAGS_DEFAULT,
     .tp_doc = PyDoc_STR("Sphere()\n--\n\n"),
 };
+    PyModuleDef_HEAD_INIT,
+    "package.wheels.sphere",
+    NULL, /* docstring */
+    0,
 """  # noqa: E501 - as mypyc writes it
 
 
@@ -59,8 +62,9 @@ def test_words_stand_behind_their_signatures(
         'turn(q)\n--\n\nTurn "q" by 3°.',
         "turn($self)\n--\n\nTurn it.",
         "Sphere()\n--\n\nA sphere.\n\nSecond line?",
+        'Turns "all".',
     ]
-    assert len(written) == 4
+    assert len(written) == 5
     assert written[2] == "NULL"
 
 

@@ -5,14 +5,12 @@ import shlex
 import subprocess
 import sys
 import tomllib
-from pathlib import Path
 
 import pytest
+from installed import PACKAGE, ROOT
 
 from atlas_cueing.errors import PIP, MissingExtraError
 
-ROOT = Path(__file__).parents[1]
-PACKAGE = ROOT / "atlas_cueing"
 EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
 
 

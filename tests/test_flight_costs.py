@@ -14,6 +14,7 @@ from types import FrameType
 from typing import Any
 
 import pytest
+from installed import PACKAGE, ROOT
 
 from atlas_cueing.cueing.stage.mpc_qp import MpcProblem
 from atlas_cueing.cueing.stage.mpc_unconstrained import Plan
@@ -22,7 +23,6 @@ from atlas_cueing.run import build_pipeline, open_vehicle
 from atlas_cueing.scenario import Scenario, load_scenario
 from atlas_cueing.signals import Tick, VehicleState
 
-ROOT = Path(__file__).parents[1]
 TOOL = ROOT / "tools" / "benchmark"
 sys.path.insert(0, str(TOOL.parent))  # where its modules lie
 
@@ -228,7 +228,7 @@ def test_help_loads_no_more_than_the_command_line(tmp_path: Path) -> None:
             "cli",
             "errors",
             "printable",
-            *(f"cli.{file.stem}" for file in (ROOT / "atlas_cueing/cli").glob("*.py")),
+            *(f"cli.{file.stem}" for file in (PACKAGE / "cli").glob("*.py")),
         )
     }
 

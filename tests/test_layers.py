@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from installed import PACKAGE, ROOT, needs_source_tree
 
-ROOT = Path(__file__).parents[1]
 TOP = {"README.md", "atlas_cueing", "pyproject.toml", "scenarios", "tests", "tools"}
 SDIST = {"PKG-INFO", "setup.cfg"}  # added by setuptools to an sdist
 LINT = [
@@ -55,9 +55,7 @@ def test_the_contracts_are_kept() -> None:
 def test_a_breach_is_seen(tmp_path: Path, file: str, line: str, contract: str) -> None:
     """The contracts can fail: a forbidden line or a noun without a layer, in a copy of the code."""
     shutil.copytree(
-        ROOT / "atlas_cueing",
-        tmp_path / "atlas_cueing",
-        ignore=shutil.ignore_patterns("__pycache__"),
+        PACKAGE, tmp_path / "atlas_cueing", ignore=shutil.ignore_patterns("__pycache__", "*.so")
     )
     shutil.copy(ROOT / "pyproject.toml", tmp_path)
     breached = tmp_path / "atlas_cueing" / file
@@ -83,6 +81,7 @@ def tracked() -> set[str]:
     return found - SDIST
 
 
+@needs_source_tree
 def test_the_top_level_holds_nothing_else() -> None:
     found = {name for name in tracked() if not name.startswith(".")}
     assert found - TOP == set()
@@ -99,10 +98,10 @@ def public_functions(file: Path) -> Iterator[str]:
 def test_no_public_function_has_the_name_of_a_package_beside_it() -> None:
     """Imported into the package above, it would hide that package."""
     hidden = [
-        f"{file.relative_to(ROOT)}: {name}"
-        for file in (ROOT / "atlas_cueing").rglob("*.py")
+        f"{file.relative_to(PACKAGE)}: {name}"
+        for file in PACKAGE.rglob("*.py")
         for name in public_functions(file)
         for folder in (file.parent, *file.parents)
-        if folder.is_relative_to(ROOT / "atlas_cueing") and (folder / name / "__init__.py").exists()
+        if folder.is_relative_to(PACKAGE) and (folder / name / "__init__.py").exists()
     ]
     assert not hidden

@@ -8,10 +8,10 @@ from math import degrees, radians
 from pathlib import Path
 
 import pytest
+from installed import PRESETS, ROOT
 from rides.flying import Kept
 from rides.on_plant import COLUMNS, PlantOrder, fly_on_plant, summary, table
 
-ROOT = Path(__file__).parents[1]
 PRESET = "platform.preset=atlas-2.9m-halo"
 
 
@@ -60,7 +60,7 @@ def test_each_kind_is_kept_apart(short: Path, tmp_path: Path) -> None:
 
 def test_a_platform_without_masses_is_refused(short: Path, tmp_path: Path) -> None:
     bare = tmp_path / "bare.toml"
-    text = (ROOT / "atlas_cueing/scenario/presets/atlas-1.5m.toml").read_text()
+    text = (PRESETS / "atlas-1.5m.toml").read_text()
     bare.write_text(text[: text.index("[[part]]")])
     order = PlantOrder(short, (f"platform.file={bare}",), "blend", ("none", None))
     ride = fly_on_plant(order)

@@ -5,6 +5,9 @@ from pathlib import Path
 
 import pytest
 from building import PROJECT, build_sdist, build_wheel, version_of
+from installed import needs_source_tree
+
+pytestmark = needs_source_tree
 
 BELONGING = ("pyproject.toml", "README.md", ".gitignore", ".ci")
 BELONGING += ("atlas_cueing", "scenarios", "tests", "tools")

@@ -1,7 +1,8 @@
 """Docstrings for compiled code: mypyc keeps signatures of functions and classes, and no words.
 
 It writes them into tables of the C files, where help() and inspect look for both; the docstrings
-of the sources are put behind. What another version of mypyc writes in another way stays as it is.
+of the sources are put behind, and those of modules in place of none. What another version of mypyc
+writes in another way stays as it is.
 """
 
 import ast
@@ -12,6 +13,7 @@ from pathlib import Path
 
 _TEXT = r'PyDoc_STR\((?P<text>"(?:[^"\\]|\\.)*"|NULL)\)'
 _FUNCTION = re.compile(rf"(?P<head>CPyPy_(?P<name>\w+),\s*METH_[^\"\n]*){_TEXT}")
+_MODULE = re.compile(r'(?P<head>PyModuleDef_HEAD_INIT,\s*"[\w.]+",\s*)NULL, /\* docstring \*/')
 _CLASS = re.compile(rf"(?P<head>sizeof\((?P<name>\w+)Object\),[^;]*?\.tp_doc = ){_TEXT}")
 
 
@@ -27,7 +29,8 @@ def add_docstrings(c_files: Iterable[str], modules: Iterable[str]) -> None:
 
 def _documented(code: str, module: str, source: str) -> str:
     """The C code of a module with the docstrings of its source."""
-    words = dict(_inside(ast.parse(source)))
+    tree = ast.parse(source)
+    words = dict(_inside(tree))
     parts = module.split("___")
     # a function has the shortest end of the module's name that is not another's as well
     short = [f"{'___'.join(parts[start:])}___" for start in range(len(parts))]
@@ -39,7 +42,9 @@ def _documented(code: str, module: str, source: str) -> str:
         written = "" if found["text"] == "NULL" else found["text"]
         return f"{found['head']}PyDoc_STR({written} {_literal(text)})" if text else found[0]
 
-    return _CLASS.sub(with_words, _FUNCTION.sub(with_words, code))
+    code = _CLASS.sub(with_words, _FUNCTION.sub(with_words, code))
+    of_module = f"PyDoc_STR({_literal(ast.get_docstring(tree) or '')}),"
+    return _MODULE.sub(lambda found: found["head"] + of_module, code)
 
 
 def _inside(node: ast.Module | ast.ClassDef, outer: str = "") -> Iterator[tuple[str, str]]:

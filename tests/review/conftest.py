@@ -1,6 +1,7 @@
 from pathlib import Path
 
 import pytest
+from installed import PRESETS
 
 from atlas_cueing.run import run_scenario
 from atlas_cueing.scenario import load_scenario
@@ -31,10 +32,7 @@ SCENARIOS = Path(__file__).parents[2] / "scenarios"
 
 def fly(folder: Path, *settings: str, text: str = FLIGHT, name: str = "flight.mcap") -> Path:
     """A log of the flight, in `folder`."""
-    preset = (
-        Path(__file__).parents[2] / "atlas_cueing/scenario/presets/atlas-2.9m.toml"
-    ).read_text()
-    (folder / "platform.toml").write_text(preset)
+    (folder / "platform.toml").write_text((PRESETS / "atlas-2.9m.toml").read_text())
     (folder / "s.toml").write_text(text)
     result = run_scenario(
         load_scenario(folder / "s.toml", ("platform.rider.head_m=[0.1,0.05,0.3]", *settings)),
