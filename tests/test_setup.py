@@ -103,6 +103,7 @@ def test_what_dev_or_an_extra_brings_is_not_asked_for_again(project: Project) ->
     assert project.setup("report")[2] == ["wheel", "built.whl", "built.whl[report]"]
     assert project.setup()[2] == []
     assert project.setup("live")[2] == ["built.whl[live]"]  # no building
+    assert project.setup("tools")[2] == ["built.whl[tools]"]
     assert project.setup("dev")[2] == [".[dev]"]
     assert project.setup("preview")[2] == []
 

@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import environment
@@ -61,6 +62,20 @@ def test_a_scenario_that_cannot_be_flown_is_told_in_a_line(
     assert (told.returncode, told.stdout) == (2, "")
     assert scenario in told.stderr
     assert told.stderr.count("\n") == 1
+
+
+def test_no_tool_changes_the_build_that_is_there() -> None:
+    """`tools/setup dev` makes an editable install, which is Python: no tool may ask for it."""
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    extras = extras["optional-dependencies"]
+    asked = {
+        name
+        for tool in TOOLS
+        for name in re.findall(r'^enter\("(.*)"\)', tool.read_text(), re.MULTILINE)
+    }
+    assert "tools" in asked
+    assert asked <= set(extras) - {"dev"}
+    assert {wanted for name in asked for wanted in extras[name]} <= set(extras["dev"])
 
 
 def copied(folder: Path, setup: str) -> Path:

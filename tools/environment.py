@@ -20,7 +20,8 @@ def enter(extra: str = "") -> None:
     """Go on in an interpreter that has the project and what its `extra` needs.
 
     The running one is kept if it has all of it. Otherwise `tools/setup EXTRA` makes .venv ready,
-    and the tool starts again there. From then on Ctrl-C, or a reader that went away, ends it
+    and the tool starts again there. What is compiled stays compiled, for no tool asks for `dev`;
+    what is Python stays Python. From then on Ctrl-C, or a reader that went away, ends it
     without a traceback.
     """
     sys.excepthook = _excepthook
