@@ -23,7 +23,7 @@ import numpy as np
 from atlas_cueing import rotation
 from atlas_cueing.cueing import CAUSAL_METHODS
 from atlas_cueing.errors import PlanningError
-from atlas_cueing.live.control.command import Command
+from atlas_cueing.live.control.command import Command, command_of
 from atlas_cueing.live.control.guard import Guard
 from atlas_cueing.pipeline import Pipeline
 from atlas_cueing.run import run_scenario
@@ -162,6 +162,8 @@ def as_python() -> list[str]:
         assert all(each == signal and type(each) is type(signal) for each in copies)
         assert replace(signal) == signal
         found.append(f"{signal} {[item.name for item in fields(signal)]}")
+    command = command_of(SIGNALS[4], (1.0, 2.0, 3.0))  # type: ignore[arg-type]
+    assert command == deepcopy(command) == pickle.loads(pickle.dumps(command))  # noqa: S301
     vectors = (np.array(vector) for vector in (STATE.q_NB, STATE.w_NB_B, STATE.f_B))
     assert VehicleState(np.float64(0.5), *vectors) == STATE
     assert VehicleState(0.5, [1, 0, 0, 0], [0.1, 0.2, 0.3], [0, 0, -9.8]) == STATE

@@ -4,9 +4,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any, TypeAlias
 
 from ...rotation import ZERO, Vec3
 from ...signals import Motion, Tick
+
+Reduced: TypeAlias = tuple[Any, tuple[Any, ...]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,6 +29,18 @@ class Command:
     v_WS_W: Vec3
     a_WS_W: Vec3
     wheel_angle: Vec3
+
+    def __reduce__(self) -> Reduced:
+        """Copy and pickle by the arguments: a compiled class has no other way."""
+        return Command, (
+            self.time,
+            self.wheel_speed,
+            self.wheel_acceleration,
+            self.p_WS_W,
+            self.v_WS_W,
+            self.a_WS_W,
+            self.wheel_angle,
+        )
 
 
 def command_of(tick: Tick, wheel_angle: Vec3) -> Command:
