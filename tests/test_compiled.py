@@ -18,6 +18,10 @@ import build_compiled
 
 pytestmark = needs_source_tree
 PROBE = Path(__file__).with_name("compiled_probe.py")
+# what replaces parts, breaks them or hands in what is none
+QUICK = ("live/control", "live/test_loop.py", "live/test_faults.py", "smoothing/test_axis.py")
+QUICK += ("cueing/stage", "cueing/committee", "cueing/own")
+PYTEST = (f"--rootdir={PROJECT}", "-p", "no:cacheprovider", "-p", "no:xdist", "-rfE", "--tb=short")
 OBSTACLE = build_compiled.obstacle()
 needs_a_compiler = pytest.mark.skipif(bool(OBSTACLE), reason=OBSTACLE)
 
@@ -45,11 +49,29 @@ def compiled_in(unpacked: Path) -> set[str]:
     return {str(path.with_name(path.name.split(".")[0] + ".py")) for path in found}
 
 
+def passed(folder: Path, build: Path) -> int:
+    """How many of the quick tests pass with the build; none may fail."""
+    folder.mkdir()
+    places = [str(PROJECT / "tests" / name) for name in QUICK]
+    done = subprocess.run(
+        [sys.executable, "-m", "pytest", "-c", str(PROJECT / "pyproject.toml"), *PYTEST, *places],
+        env={**os.environ, "PYTHONPATH": str(build)},
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=600,
+    )
+    assert done.returncode == 0, done.stdout[-5000:] + done.stderr[-1000:]
+    found = re.search(r"(\d+) passed", done.stdout)
+    return int(found[1]) if found else 0
+
+
 @needs_a_compiler
-def test_compiled_code_computes_the_same_bits(
+def test_compiled_code_computes_the_same_bits_and_passes_the_tests(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    """Some quick ones of the tests; `tools/build_wheels --test` runs all."""
     monkeypatch.chdir(PROJECT)
     unpacked, _ = build_wheel(tmp_path / "wheel")
     assert compiled_in(unpacked) == set(build_compiled.compiled_modules())
@@ -58,6 +80,7 @@ def test_compiled_code_computes_the_same_bits(
     assert (compiled.pop("code"), source.pop("code")) == (".so", ".py")
     assert compiled == source
     assert len(source) == len(CAUSAL_METHODS) + 4
+    assert passed(tmp_path / "tested", unpacked) > 1000
 
 
 def test_what_runs_every_tick_is_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
