@@ -150,8 +150,18 @@ SIGNALS = (
     WHEELS,
     Tick(STATE, CUE, MOTION, WHEELS),
     Timing(*map(float, range(9))),
+    Command(0.5, *(((0.0, 1.0, 2.0),) * 6)),
 )
 DOCUMENTED = (Pipeline, Pipeline.step, rotation.rotate, Smoothing.step, Guard, *map(type, SIGNALS))
+
+
+def is_final(signal: object) -> bool:
+    """Whether its time cannot be set anew."""
+    try:
+        signal.time = 1.0  # type: ignore[attr-defined]
+    except AttributeError:
+        return True
+    return False
 
 
 def as_python() -> list[str]:
@@ -161,6 +171,8 @@ def as_python() -> list[str]:
         copies = copy(signal), deepcopy(signal), pickle.loads(pickle.dumps(signal))  # noqa: S301
         assert all(each == signal and type(each) is type(signal) for each in copies)
         assert replace(signal) == signal
+        if Path(rotation.__file__).suffix == ".so":
+            assert is_final(signal)
         found.append(f"{signal} {[item.name for item in fields(signal)]}")
     command = command_of(SIGNALS[4], (1.0, 2.0, 3.0))  # type: ignore[arg-type]
     assert command == deepcopy(command) == pickle.loads(pickle.dumps(command))  # noqa: S301

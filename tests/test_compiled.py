@@ -97,7 +97,8 @@ def test_what_runs_every_tick_is_compiled(monkeypatch: pytest.MonkeyPatch) -> No
         "tick_loads",
     } <= modules
     assert {"observer", "canals", "committee", "member", "weights", "draw", "loss"} <= modules
-    assert not {"__init__", "loop", "recorder", "plots"} & modules
+    assert {"loop", "setpoint", "setpoint_sender", "ring", "messages", "timing"} <= modules
+    assert not {"__init__", "clock", "recorder", "plots"} & modules
 
 
 @needs_a_compiler

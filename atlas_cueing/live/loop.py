@@ -10,6 +10,8 @@ for bit. A slot is lost when its set point would come after d_k-1; what follows 
 controller. Deadlines and due times are whole nanoseconds from the start: no rounding adds up.
 """
 
+# mypyc: runs every tick
+
 from collections.abc import Sequence
 from math import isfinite
 from typing import Protocol

@@ -1,5 +1,7 @@
 """The punctuality of the loop, in memory that does not grow."""
 
+# mypyc: runs every tick
+
 from array import array
 from collections.abc import Sequence
 from math import degrees

@@ -1,5 +1,7 @@
 """Watches the processes that follow a live run: each death is told once."""
 
+# mypyc: runs every tick
+
 from collections.abc import Callable
 from typing import NamedTuple
 

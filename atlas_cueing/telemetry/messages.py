@@ -1,5 +1,7 @@
 """The messages in the ring of a live run: ticks, changes of state and the end."""
 
+# mypyc: runs every tick
+
 import json
 from struct import Struct
 from typing import Protocol

@@ -4,6 +4,8 @@ They are pressed in one process and read in another, and neither waits. As the r
 anonymous and reaches the other process by `fork`.
 """
 
+# mypyc: runs every tick
+
 import mmap
 from threading import Lock
 

@@ -9,6 +9,8 @@ Each slot begins with the number of its message, written last and invalidated fi
 lock): a reader that finds another number before or after its copy has been overtaken.
 """
 
+# mypyc: runs every tick
+
 import mmap
 from collections.abc import Iterator
 from struct import Struct

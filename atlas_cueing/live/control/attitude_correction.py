@@ -69,7 +69,7 @@ class CorrectionSettings:
     estimate: EstimateSettings
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True, init=False)
 class _Sent:
     """A tick that was sent.
 
@@ -77,9 +77,14 @@ class _Sent:
     all that was added up to then.
     """
 
-    due: int
-    q_WS: Quat
-    added_S: Vec3
+    due: Final[int]
+    q_WS: Final[Quat]
+    added_S: Final[Vec3]
+
+    def __init__(self, due: int, q_WS: Quat, added_S: Vec3) -> None:
+        self.due = due
+        self.q_WS = q_WS
+        self.added_S = added_S
 
 
 class AttitudeCorrection:

@@ -15,7 +15,12 @@ from ...signals import StageLimits, WheelLimits
 # share by which a limit may be passed, as differences of rounded numbers do; the stop has it, too
 ROUNDING = 5e-7
 
-Checks = tuple[tuple[str, float, float, float], ...]  # what, value, lowest and highest allowed
+
+def outside(name: str, what: str, value: float, low: float, high: float) -> str:
+    """Describe a value of an axis that is not inside its bounds; empty when it is."""
+    if low <= value <= high:
+        return ""
+    return f"{name}{what} {value:.12g}, allowed: {low:.12g} <= value <= {high:.12g}"
 
 
 class AxisLimits:
@@ -56,43 +61,62 @@ class AxisLimits:
         if not isinf(travel):
             self.travel = travel * (1.0 + ROUNDING) - acceleration * dt * dt / 8.0
 
-    def checks(self, h: float, v0: float, a0: float, v: float, a: float) -> Checks:
-        """Return the checks from speed v0 and acceleration a0 to v and a, h s later."""
-        fast, strong = self.speed, self.acceleration
+    def breach(
+        self, h: float, p0: float, v0: float, a0: float, p: float, v: float, a: float
+    ) -> str:
+        """Describe what of p, v, a is not fit to follow p0, v0, a0 by h (s); empty when all is."""
+        return self._rate_breach(h, v0, a0, v, a) or self._place_breach(h, p0, v0, a0, p, v, a)
+
+    def _rate_breach(self, h: float, v0: float, a0: float, v: float, a: float) -> str:
+        """Look at speed and acceleration."""
+        name, fast, strong = self.name, self.speed, self.acceleration
         turn, gain, D = self.jerk * h, strong * h, a - a0
         mean, bend = v0 + 0.5 * h * (a0 + a), 0.25 * (self.reach * h * h - D * D / self.reach)
+        rest = v + 0.5 * a * abs(a) / self.jerk
         return (
-            ("speed", v, -fast, fast),
-            ("acceleration", a, -strong, strong),
-            ("acceleration by the jerk", a, a0 - turn, a0 + turn),
-            ("speed by the acceleration", v, v0 - gain, v0 + gain),
-            ("speed by the jerk", v, mean - bend, mean + bend),
-            ("speed on the way to standstill", v + 0.5 * a * abs(a) / self.jerk, -fast, fast),
+            outside(name, "speed", v, -fast, fast)
+            or outside(name, "acceleration", a, -strong, strong)
+            or outside(name, "acceleration by the jerk", a, a0 - turn, a0 + turn)
+            or outside(name, "speed by the acceleration", v, v0 - gain, v0 + gain)
+            or outside(name, "speed by the jerk", v, mean - bend, mean + bend)
+            or outside(name, "speed on the way to standstill", rest, -fast, fast)
         )
 
-    def place_checks(
+    def _place_breach(
         self, h: float, p0: float, v0: float, a0: float, p: float, v: float, a: float
-    ) -> Checks:
-        """Return the checks from p0, v0, a0 to p, v, a, h s later, if v and a are fit."""
-        largest = abs(p0) + self.speed * h if isinf(self.travel) else self.travel
-        end, blur = self.travel, 4.0 * ulp(largest)
+    ) -> str:
+        """Look at the position, v and a being fit."""
+        if isinf(self.travel):
+            return self._way_breach(h, p0, v0, a0, p, v, a, abs(p0) + self.speed * h)
+        name, end, stop = self.name, self.travel, self.stop(p, v, a)
+        return (
+            outside(name, "position", p, -end, end)
+            or self._way_breach(h, p0, v0, a0, p, v, a, end)
+            or outside(name, "standstill", stop.end, -end, end)
+            or outside(name, "turning point", stop.turning_point, -end, end)
+        )
+
+    def _way_breach(
+        self,
+        h: float,
+        p0: float,
+        v0: float,
+        a0: float,
+        p: float,
+        v: float,
+        a: float,
+        largest: float,
+    ) -> str:
+        """Look at the way from p0 to p; `largest` is the largest number that was rounded."""
+        name, blur = self.name, 4.0 * ulp(largest)
         way, sag = self.speed * h + blur, 0.5 * self.acceleration * h * h + blur
         old, new = p0 + h * v0, p0 + h * v
         low, high = self.reachable(h, p0, v0, a0, v, a)
-        by_rates = (
-            ("position by the speed", p, p0 - way, p0 + way),
-            ("position by the acceleration", p, old - sag, old + sag),
-            ("position by the acceleration", p, new - sag, new + sag),
-            ("position by the jerk", p, low - blur, high + blur),
-        )
-        if isinf(end):
-            return by_rates
-        stop = self.stop(p, v, a)
         return (
-            ("position", p, -end, end),
-            *by_rates,
-            ("standstill", stop.end, -end, end),
-            ("turning point", stop.turning_point, -end, end),
+            outside(name, "position by the speed", p, p0 - way, p0 + way)
+            or outside(name, "position by the acceleration", p, old - sag, old + sag)
+            or outside(name, "position by the acceleration", p, new - sag, new + sag)
+            or outside(name, "position by the jerk", p, low - blur, high + blur)
         )
 
     def reachable(

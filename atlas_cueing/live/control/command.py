@@ -4,15 +4,14 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Final
 
 from ...rotation import ZERO, Vec3
 from ...signals import Motion, Tick
+from ...signals.states import Reduced
 
-Reduced: TypeAlias = tuple[Any, tuple[Any, ...]]
 
-
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True, init=False)
 class Command:
     """Motion that the drives shall have at `time` (s).
 
@@ -22,25 +21,47 @@ class Command:
     derivatives.
     """
 
-    time: float
-    wheel_speed: Vec3
-    wheel_acceleration: Vec3
-    p_WS_W: Vec3
-    v_WS_W: Vec3
-    a_WS_W: Vec3
-    wheel_angle: Vec3
+    time: Final[float]
+    wheel_speed: Final[Vec3]
+    wheel_acceleration: Final[Vec3]
+    p_WS_W: Final[Vec3]
+    v_WS_W: Final[Vec3]
+    a_WS_W: Final[Vec3]
+    wheel_angle: Final[Vec3]
+
+    def __init__(
+        self,
+        time: float,
+        wheel_speed: Vec3,
+        wheel_acceleration: Vec3,
+        p_WS_W: Vec3,
+        v_WS_W: Vec3,
+        a_WS_W: Vec3,
+        wheel_angle: Vec3,
+    ) -> None:
+        self.time = time
+        self.wheel_speed = wheel_speed
+        self.wheel_acceleration = wheel_acceleration
+        self.p_WS_W = p_WS_W
+        self.v_WS_W = v_WS_W
+        self.a_WS_W = a_WS_W
+        self.wheel_angle = wheel_angle
 
     def __reduce__(self) -> Reduced:
         """Copy and pickle by the arguments: a compiled class has no other way."""
-        return Command, (
-            self.time,
-            self.wheel_speed,
-            self.wheel_acceleration,
-            self.p_WS_W,
-            self.v_WS_W,
-            self.a_WS_W,
-            self.wheel_angle,
-        )
+        stage = self.p_WS_W, self.v_WS_W, self.a_WS_W
+        wheels = self.wheel_speed, self.wheel_acceleration
+        return Command, (self.time, *wheels, *stage, self.wheel_angle)
+
+
+def is_still(command: Command) -> bool:
+    """Return whether all numbers of a command that are zero at a standstill are so exactly."""
+    w1, w2, w3 = command.wheel_speed
+    b1, b2, b3 = command.wheel_acceleration
+    vx, vy, vz = command.v_WS_W
+    ax, ay, az = command.a_WS_W
+    turns = w1 or w2 or w3 or b1 or b2 or b3
+    return not (turns or vx or vy or vz or ax or ay or az)
 
 
 def command_of(tick: Tick, wheel_angle: Vec3) -> Command:
@@ -74,6 +95,11 @@ def command_from(time: float, axes: Sequence[Vec3]) -> Command:
 
 def axes_of(command: Command) -> list[Vec3]:
     """Return position, speed and acceleration of the six axes, as `command_from` takes them."""
-    c = command
-    wheels = zip(c.wheel_angle, c.wheel_speed, c.wheel_acceleration, strict=True)
-    return [*wheels, *zip(c.p_WS_W, c.v_WS_W, c.a_WS_W, strict=True)]
+    q1, q2, q3 = command.wheel_angle
+    w1, w2, w3 = command.wheel_speed
+    b1, b2, b3 = command.wheel_acceleration
+    px, py, pz = command.p_WS_W
+    vx, vy, vz = command.v_WS_W
+    ax, ay, az = command.a_WS_W
+    wheels = (q1, w1, b1), (q2, w2, b2), (q3, w3, b3)
+    return [*wheels, (px, vx, ax), (py, vy, ay), (pz, vz, az)]

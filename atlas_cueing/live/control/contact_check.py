@@ -11,10 +11,8 @@ centre of mass, and drive forces F and the sphere's displacement d found at once
 
 # mypyc: runs every tick
 
-from collections.abc import Iterator
-
 from ...rotation import Mat3, Quat, Vec3, add, apply, conjugate, cross, dot, rotate, scale
-from .certified_axis import ROUNDING, Checks
+from .certified_axis import ROUNDING, outside
 from .command import Command
 
 Six = tuple[float, float, float, float, float, float]
@@ -58,22 +56,29 @@ class ContactCheck:
         self._contacts, self._grip = contacts, grip
         self._axles, self._torque = axles, torque
 
-    def checks(self, command: Command, q_WS: Quat) -> Iterator[tuple[str, Checks]]:
-        """Yield what has to hold for the motion `command` in this orientation."""
+    def breach(self, command: Command, q_WS: Quat) -> str:
+        """Describe what does not hold for `command` in this orientation; empty when all does."""
         found = self._balance(command, q_WS)
-        drive, d = found[:3], (found[3], found[4], found[5])
+        d: Vec3 = (found[3], found[4], found[5])
         for j, (u, k, alone) in enumerate(self._contacts):
             normal = alone + k * dot(u, d)
             name = f"wheel {j + 1} " if j < 3 else f"support {j - 2} "
-            yield name, (("normal force", normal, 0.0, 1e300),)
-            if j < 3:
-                most = self._grip[j] * normal * (1.0 + ROUNDING)
-                yield name, (("drive force", drive[j], -most, most),)
-                yield name, (("torque", self._torque_of(j, drive[j], command), *self._limit()),)
+            breach = outside(name, "normal force", normal, 0.0, 1e300)
+            if j < 3 and not breach:
+                breach = self._wheel_breach(j, name, found[:3][j], normal, command)
+            if breach:
+                return breach
+        return ""
 
-    def _limit(self) -> tuple[float, float]:
-        most = self._torque * (1.0 + ROUNDING)
-        return -most, most
+    def _wheel_breach(
+        self, i: int, name: str, drive: float, normal: float, command: Command
+    ) -> str:
+        """Look at friction and torque of wheel i, which drives by a force (N)."""
+        most = self._grip[i] * normal * (1.0 + ROUNDING)
+        torque, strong = self._torque_of(i, drive, command), self._torque * (1.0 + ROUNDING)
+        return outside(name, "drive force", drive, -most, most) or outside(
+            name, "torque", torque, -strong, strong
+        )
 
     def _balance(self, command: Command, q_WS: Quat) -> Six:
         """Return the drive forces (N) and the displacement of the sphere (m)."""

@@ -18,7 +18,6 @@ from typing import Final
 from ...plant.bounded_sum import SHARE, BoundedSum
 from ...rotation import Vec3
 from .certified_axis import AxisLimits, CertifiedStop
-from .guard import breach_of
 
 
 class CorrectedWheel:
@@ -84,11 +83,7 @@ class CorrectedWheel:
     def _breach(self, state: Vec3) -> str:
         """What of a state is not fit to be the next; empty when it is."""
         limits, h, (p0, v0, a0), (p, v, a) = self._limits, self._dt, self.state, state
-        checks = (
-            (limits.name, limits.checks(h, v0, a0, v, a)),
-            (limits.name, limits.place_checks(h, p0, v0, a0, p, v, a)),
-        )
-        return breach_of(checks)
+        return limits.breach(h, p0, v0, a0, p, v, a)
 
 
 def _gain(h: float, v: float, a: float, after: float) -> float:

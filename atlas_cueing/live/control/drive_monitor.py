@@ -11,7 +11,7 @@ from math import degrees, inf, isfinite, radians
 
 from ...rotation import Vec3
 from .attitude_correction import AttitudeCorrection
-from .command import Command
+from .command import Command, is_still
 from .drive_status import DriveFeedback, DriveStatus
 
 TIMEOUT = 0.05  # s without a status while it moves, by default
@@ -207,7 +207,9 @@ class DriveMonitor:
             return "stopping", f"the drives stop by themselves: {status.reason}; reset them"
         if self._attitude and (trouble := self._attitude.trouble):
             return "sensors", trouble
-        margin = min((margin for _, margin in self._margins), default=inf)
+        margin = inf
+        for _, each in self._margins:
+            margin = min(margin, each)
         if margin < LEAST_MARGIN:
             return "margin", (
                 f"set points come {1e3 * margin:.1f} ms before they are due, allowed: at least"
@@ -227,8 +229,7 @@ class DriveMonitor:
 
 def moves(command: Command) -> bool:
     """Return whether a command is not at rest."""
-    c = command
-    return any((*c.wheel_speed, *c.wheel_acceleration, *c.v_WS_W, *c.a_WS_W))
+    return not is_still(command)
 
 
 def _between(one: tuple[int, Command], other: tuple[int, Command], time: int) -> tuple[Vec3, Vec3]:

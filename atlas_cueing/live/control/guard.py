@@ -27,14 +27,13 @@ its own.
 
 # mypyc: runs every tick
 
-from collections.abc import Iterable, Iterator
 from math import inf, ulp
 
 from ...errors import InputError
 from ...rotation import IDENTITY, ZERO, Quat
 from ...signals import StageLimits, WheelLimits
-from .certified_axis import AxisLimits, CertifiedStop, Checks
-from .command import Command, axes_of, command_from
+from .certified_axis import AxisLimits, CertifiedStop, outside
+from .command import Command, axes_of, command_from, is_still
 from .contact_check import ContactCheck
 
 _EARLY = 1e-6  # share of a tick by which a command may be early, beside the rounding of its time
@@ -67,7 +66,7 @@ class Guard:
         """
         wheels, stage = wheel_limits, stage_limits
         self._dt, self._contacts = dt, contacts
-        self._wheels = [
+        turns = [
             AxisLimits(f"wheel {name} ", dt, v, a, j, inf, wheels.stop_share)
             for name, v, a, j in zip(
                 "123", wheels.speed, wheels.acceleration, wheels.jerk, strict=True
@@ -79,6 +78,7 @@ class Guard:
                 "xyz", stage.speed, stage.acceleration, stage.jerk, stage.travel, strict=True
             )
         ]
+        self._axes = [*turns, *self._rails]
         self._begin(Command(0.0, ZERO, ZERO, ZERO, ZERO, ZERO, ZERO))
         self._earliest, self._latest = -_AGES, _AGES
 
@@ -87,11 +87,12 @@ class Guard:
 
         Raises InputError for any other one.
         """
-        places = zip(self._rails, command.p_WS_W, strict=True)
-        checks = [("", (("time", command.time, -_AGES, _AGES),))]
-        checks += [(rail.name, (("position", p, -rail.travel, rail.travel),)) for rail, p in places]
-        checks += [("", (("a rate", rate, 0.0, 0.0),)) for rate in _rates(command)]
-        if breach := breach_of(checks):
+        breach = outside("", "time", command.time, -_AGES, _AGES)
+        for rail, p in zip(self._rails, command.p_WS_W, strict=True):
+            breach = breach or outside(rail.name, "position", p, -rail.travel, rail.travel)
+        for rate in _rates(command):
+            breach = breach or outside("", "a rate", rate, 0.0, 0.0)
+        if breach:
             raise InputError(f"start from a standstill inside the travel: {breach}")
         self._begin(command)
 
@@ -104,7 +105,7 @@ class Guard:
         """
         if not self.stopping:
             try:
-                breach = breach_of(self._checks(command, q_WS))
+                breach = self._breach(command, q_WS)
                 if not breach:
                     self._put_out(command)
                     return command
@@ -143,7 +144,7 @@ class Guard:
     @property
     def standing(self) -> bool:
         """Whether the last output is at rest."""
-        return not any(_rates(self._last))
+        return is_still(self._last)
 
     def _begin(self, command: Command) -> None:
         self._reason, self._ticks, self._stops = "", 0, list[CertifiedStop]()
@@ -156,23 +157,26 @@ class Guard:
 
     def _latch(self, reason: str) -> None:
         """Plan the stop from the last output."""
-        axes = (*self._wheels, *self._rails)
-        self._stops = [
-            axis.stop(*state) for axis, state in zip(axes, axes_of(self._last), strict=True)
-        ]
+        states = zip(self._axes, axes_of(self._last), strict=True)
+        self._stops = [axis.stop(*state) for axis, state in states]
         self._reason = reason
 
-    def _checks(self, command: Command, q_WS: Quat) -> Iterator[tuple[str, Checks]]:
-        """Yield all that has to hold for the command to follow the last output, axis by axis."""
-        last = self._last
-        yield "", (("time", command.time, self._earliest, self._latest),)
-        axes = (*self._wheels, *self._rails)
-        states = zip(axes, axes_of(last), axes_of(command), strict=True)
-        for axis, (p0, v0, a0), (p, v, a) in states:
-            yield axis.name, axis.checks(self._dt, v0, a0, v, a)
-            yield axis.name, axis.place_checks(self._dt, p0, v0, a0, p, v, a)
-        if self._contacts is not None:
-            yield from self._contacts.checks(command, q_WS)
+    def _breach(self, command: Command, q_WS: Quat) -> str:
+        """Describe the first thing that is not fit to follow the last output, axis by axis."""
+        return (
+            outside("", "time", command.time, self._earliest, self._latest)
+            or self._axis_breach(command)
+            or ("" if self._contacts is None else self._contacts.breach(command, q_WS))
+        )
+
+    def _axis_breach(self, command: Command) -> str:
+        states = axes_of(self._last), axes_of(command)
+        for axis, before, now in zip(self._axes, *states, strict=True):
+            p0, v0, a0 = before
+            p, v, a = now
+            if breach := axis.breach(self._dt, p0, v0, a0, p, v, a):
+                return breach
+        return ""
 
 
 def _rail(
@@ -195,14 +199,3 @@ def _rail(
 def _rates(command: Command) -> tuple[float, ...]:
     """Return all numbers of a command that are zero at a standstill."""
     return (*command.wheel_speed, *command.wheel_acceleration, *command.v_WS_W, *command.a_WS_W)
-
-
-def breach_of(examined: Iterable[tuple[str, Checks]]) -> str:
-    """Describe the first check that does not hold, with its axis; empty when all hold."""
-    breaches = (
-        f"{name}{what} {value:.12g}, allowed: {low:.12g} <= value <= {high:.12g}"
-        for name, checks in examined
-        for what, value, low, high in checks
-        if not low <= value <= high
-    )
-    return next(breaches, "")

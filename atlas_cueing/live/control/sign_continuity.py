@@ -7,8 +7,6 @@ place of the live run that chooses it.
 
 # mypyc: runs every tick
 
-from dataclasses import replace
-
 from ...rotation import IDENTITY, Quat, continuous
 from ...signals import Cue, VehicleState
 
@@ -24,9 +22,13 @@ class SignContinuity:
     def vehicle(self, vehicle: VehicleState) -> VehicleState:
         """Return the state of the vehicle with the sign of q_NB that goes on."""
         self._q_NB = continuous(vehicle.q_NB, self._q_NB)
-        return vehicle if self._q_NB is vehicle.q_NB else replace(vehicle, q_NB=self._q_NB)
+        if self._q_NB == vehicle.q_NB:
+            return vehicle
+        return VehicleState(vehicle.time, self._q_NB, vehicle.w_NB_B, vehicle.f_B)
 
     def cue(self, cue: Cue) -> Cue:
         """Return the cue with the sign of q_WS that goes on."""
         self._q_WS = continuous(cue.q_WS, self._q_WS)
-        return cue if self._q_WS is cue.q_WS else replace(cue, q_WS=self._q_WS)
+        if self._q_WS == cue.q_WS:
+            return cue
+        return Cue(cue.time, self._q_WS, cue.w_WS_W, cue.p_WS_W, cue.v_WS_W, cue.a_WS_W)

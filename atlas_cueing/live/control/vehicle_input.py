@@ -2,8 +2,6 @@
 
 # mypyc: runs every tick
 
-from dataclasses import replace
-
 from ...signals import VehicleState
 from ..input.source import Source, SourceReading, no_vehicle
 
@@ -33,7 +31,8 @@ class VehicleInput:
 
     def vehicle_at(self, time: float) -> VehicleState:
         """Return the vehicle as last known, with this time (s)."""
-        return replace(self.vehicle, time=time)
+        v = self.vehicle
+        return v if v.time == time else VehicleState(time, v.q_NB, v.w_NB_B, v.f_B)
 
     def read(self, time: float, advance: bool) -> bool:
         """Read what there is at `time` (s); return whether the flight is over.

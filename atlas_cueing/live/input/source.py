@@ -3,7 +3,7 @@
 # mypyc: runs every tick
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Final, Protocol
 
 from ...rotation import IDENTITY, ZERO, Vec3
 from ...signals import STANDARD_GRAVITY, VehicleState
@@ -13,7 +13,7 @@ STALE = 0.1  # s without a good sample that are borne, unless a source knows bet
 _REST_FORCE: Vec3 = (0.0, 0.0, -STANDARD_GRAVITY)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True, init=False)
 class SourceReading:
     """What a source reports at the time of a read.
 
@@ -32,15 +32,37 @@ class SourceReading:
         not as the scenario says; empty otherwise.
     """
 
-    vehicle: VehicleState | None
-    age: float
-    dropped: int
-    bad_in_a_row: int
-    jumped: bool
-    over: bool
-    reason: str
-    patience: float = STALE
-    remark: str = ""
+    vehicle: Final[VehicleState | None]
+    age: Final[float]
+    dropped: Final[int]
+    bad_in_a_row: Final[int]
+    jumped: Final[bool]
+    over: Final[bool]
+    reason: Final[str]
+    patience: Final[float]
+    remark: Final[str]
+
+    def __init__(
+        self,
+        vehicle: VehicleState | None,
+        age: float,
+        dropped: int,
+        bad_in_a_row: int,
+        jumped: bool,
+        over: bool,
+        reason: str,
+        patience: float = STALE,
+        remark: str = "",
+    ) -> None:
+        self.vehicle = vehicle
+        self.age = age
+        self.dropped = dropped
+        self.bad_in_a_row = bad_in_a_row
+        self.jumped = jumped
+        self.over = over
+        self.reason = reason
+        self.patience = patience
+        self.remark = remark
 
 
 class Source(Protocol):

@@ -2,8 +2,6 @@
 
 # mypyc: runs every tick
 
-from dataclasses import replace
-
 from ...rotation import ZERO
 from ...signals import Vehicle, VehicleState
 from .discontinuity import discontinuity
@@ -49,7 +47,7 @@ class VehicleSource:
         self._now = time
         state = self._at(self._start + self._elapsed, time)
         if self._over or not advance:
-            state = replace(state, w_NB_B=ZERO)
+            state = VehicleState(state.time, state.q_NB, ZERO, state.f_B)
         return SourceReading(state, 0.0, 0, 0, bool(self._jump), self._over, self._jump)
 
     def pin(self) -> None:
@@ -82,4 +80,5 @@ class VehicleSource:
     def _at(self, time: float, called: float) -> VehicleState:
         if self._between:
             return self._between.at(time, called)
-        return replace(self._next, time=called)
+        state = self._next
+        return VehicleState(called, state.q_NB, state.w_NB_B, state.f_B)

@@ -31,6 +31,8 @@ A receiver that hears a good one sends its status (`status`) to where it came fr
 2.5 s, whether it follows that sender or not.
 """
 
+# mypyc: runs every tick
+
 from dataclasses import dataclass
 from hashlib import blake2s
 from struct import Struct, pack

@@ -1,5 +1,7 @@
 """The last pose of the platform in a file, by a process that outlives a loop that is killed."""
 
+# mypyc: runs every tick
+
 from collections.abc import Sequence
 from pathlib import Path
 from struct import Struct

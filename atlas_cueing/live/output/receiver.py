@@ -15,7 +15,6 @@ from ...rotation import ZERO, Vec3
 from ...signals import StageLimits, WheelLimits
 from ..control.certified_axis import six_axes
 from ..control.command import Command, axes_of, command_from
-from ..control.guard import breach_of
 from .bridge import Bridge
 from .sealing import Address, check_key
 from .setpoint import SetPoint, decode
@@ -240,12 +239,9 @@ class SetPointReceiver:
     def _lead(self, point: SetPoint, begin: int, start: Sequence[Vec3]) -> str:
         """Lead from a state at `begin` (ns) to the set point, if that can be reached."""
         h, end = 1e-9 * (point.due - begin), axes_of(point.command)
-        checks = []
-        for limits, (p0, v0, a0), (p, v, a) in zip(self._limits, start, end, strict=True):
-            checks.append((limits.name, limits.checks(h, v0, a0, v, a)))
-            checks.append((limits.name, limits.place_checks(h, p0, v0, a0, p, v, a)))
-        if breach := breach_of(checks):
-            return f"packet {point.sequence} cannot be reached: {breach}"
+        for limits, one, other in zip(self._limits, start, end, strict=True):
+            if breach := limits.breach(h, *one, *other):
+                return f"packet {point.sequence} cannot be reached: {breach}"
         axes = [
             Bridge(limits, h, one, other)
             for limits, one, other in zip(self._limits, start, end, strict=True)

@@ -7,6 +7,8 @@ BLAKE2s (RFC 7693) with a shared key of 16 to 32 bytes, a digest of 16 bytes, no
 personalisation. Who has a key takes nothing but kind 1.
 """
 
+# mypyc: runs every tick
+
 import hmac
 import zlib
 from dataclasses import dataclass

@@ -70,6 +70,8 @@ speed and acceleration of the wheels are those of schedule and correction togeth
 the same as ever.
 """
 
+# mypyc: runs every tick
+
 from dataclasses import dataclass
 from math import isfinite
 from struct import Struct

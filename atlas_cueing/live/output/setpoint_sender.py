@@ -1,5 +1,7 @@
 """The loop's socket to the drives: set points and hellos go out, statuses come in."""
 
+# mypyc: runs every tick
+
 import ipaddress
 import secrets
 import socket

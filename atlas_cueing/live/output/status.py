@@ -44,6 +44,8 @@ told. Clocks: `setpoint`. A gyro is told by its integral, so a lost packet loses
 carries its time, so it may come late. What the loop does with them is in `attitude_correction`.
 """
 
+# mypyc: runs every tick
+
 from math import hypot, isfinite, isnan
 from struct import Struct
 
