@@ -135,6 +135,7 @@ class Loop:
         timing = self._tick_timing(elapsed, lateness, cost)
         for output in self._outputs:
             output.tick(tick, timing)
+        self._controller.prepare((self.ticks + 1) * self._dt)
 
     def _send(self, due: int, command: Command) -> None:
         """Send the set point of this slot; measure how far off the last one that went out is."""

@@ -42,6 +42,7 @@ class TumblingSource:
     bad: number of samples that are refused from now on.
     jumps: the vehicle is at another attitude at the next read.
     raises: by every read.
+    prepared: the times that it was told of ahead.
     """
 
     def __init__(self, dt: float, rate: float = 0.6) -> None:
@@ -55,6 +56,7 @@ class TumblingSource:
         self.remark = ""
         self.vehicle: VehicleState | None = None
         self.advanced: list[bool] = []
+        self.prepared: list[float] = []
 
     def read(self, time: float, advance: bool) -> SourceReading:
         if self.raises:
@@ -80,6 +82,9 @@ class TumblingSource:
             *(vehicle, time - self._newest, dropped, self._row, jumped, self.over, reason),
             remark=self.remark,
         )
+
+    def prepare(self, time: float) -> None:
+        self.prepared.append(time)
 
     def pin(self) -> None:
         self.pinned += 1

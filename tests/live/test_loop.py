@@ -161,3 +161,31 @@ def test_the_age_of_the_input_is_recorded_and_none_is_minus_one() -> None:
     rig.loop.run()
     ages = [timing.input_age for timing in rig.tape.timings]
     assert ages[:10] == pytest.approx([-1.0] * 5 + [0.0] * 4 + [DT])
+
+
+def test_the_next_tick_is_prepared_when_all_of_this_one_has_gone_out() -> None:
+    rig = Rig(DT)
+    prepared: list[tuple[float, int, int]] = []
+    rig.controller.prepare = lambda time: prepared.append(  # type: ignore[method-assign]
+        (time, len(rig.tape.commands), len(rig.tape.ticks))
+    )
+    wait = rig.clock.sleep_until
+
+    def sleep_until(time: float) -> None:
+        rig.wanted.signals = int(len(rig.tape.ticks) > 12)
+        wait(time)
+
+    rig.clock.sleep_until = sleep_until  # type: ignore[method-assign]
+    rig.loop.run()
+    assert prepared == [((k + 1) * DT, k, k) for k in range(1, len(rig.tape.ticks) + 1)]
+
+
+def test_the_vehicle_is_prepared_only_while_it_flies() -> None:
+    rig = Rig(DT)
+    rig.controller.prepare(1.0)
+    rig.bring_to(State.RUNNING)
+    rig.controller.prepare(2.0)
+    rig.press("hold")
+    rig.tick()
+    rig.controller.prepare(3.0)
+    assert rig.source.prepared == [2.0]

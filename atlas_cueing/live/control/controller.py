@@ -123,6 +123,14 @@ class LiveController:
             self._drives.commanded(slot.due, command)
         return tick, command
 
+    def prepare(self, time: float) -> None:
+        """Do what can be done ahead of the tick at `time` (s), once a set point is out.
+
+        The step of the vehicle, which is the dearest part of a tick that has one.
+        """
+        if self.state is State.RUNNING and not self._finishing:
+            self._input.prepare(time)
+
     def _watch_drives(self, slot: Slot) -> None:
         """Hear the drives; what they tell may be a fault."""
         if self._drives is None:

@@ -34,6 +34,11 @@ class VehicleInput:
         v = self.vehicle
         return v if v.time == time else VehicleState(time, v.q_NB, v.w_NB_B, v.f_B)
 
+    def prepare(self, time: float) -> None:
+        """Have the source do now what it can of a read at `time` (s)."""
+        if not self._failed:
+            self._source.prepare(time)
+
     def read(self, time: float, advance: bool) -> bool:
         """Read what there is at `time` (s); return whether the flight is over.
 

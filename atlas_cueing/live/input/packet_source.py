@@ -92,6 +92,9 @@ class PacketSource:
             remark=self._remark(age),
         )
 
+    def prepare(self, time: float) -> None:
+        """Do nothing: packets come when they come."""
+
     def pin(self) -> None:
         """Take packets of the present sender only; before the first good packet, do nothing."""
         if self._sender is not None:

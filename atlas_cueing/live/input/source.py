@@ -79,6 +79,12 @@ class Source(Protocol):
         Raises VehicleError when a model that runs in this process fails.
         """
 
+    def prepare(self, time: float) -> None:
+        """Do now what a read at `time` (s) that advances would do first, if it can be done now.
+
+        It changes no reading, and raises nothing: the read does.
+        """
+
     def pin(self) -> None:
         """From now on take samples of the present sender only."""
 

@@ -21,6 +21,8 @@ class VehicleSource:
     too slow for the clock, or a gap between two reads, costs at most MAX_STEPS steps a read; what
     is left over is not made up for, and the vehicle's time falls behind.
 
+    A step that the next read will need can be made before it, when there is time (`prepare`).
+
     A jump between two steps is not interpolated: its end is returned as soon as it has begun.
     """
 
@@ -31,7 +33,9 @@ class VehicleSource:
         self._elapsed = 0.0  # of the vehicle's own time
         self._next = vehicle.state
         self._between: Interpolation | None = None  # none across a jump, and before the first step
-
+        # what the step made ahead has returned or raised; None when there is none
+        self._ahead: bool | None = None
+        self._failure: BaseException | None = None
         self._over = False
         self._jump = ""
 
@@ -50,6 +54,17 @@ class VehicleSource:
             state = VehicleState(state.time, state.q_NB, ZERO, state.f_B)
         return SourceReading(state, 0.0, 0, 0, bool(self._jump), self._over, self._jump)
 
+    def prepare(self, time: float) -> None:
+        """Make a step ahead, if a read at `time` (s) that advances will need one."""
+        if self._over or self._now is None or self._ahead is not None:
+            return
+        if self._next.time > self._start + self._elapsed + time - self._now:
+            return
+        try:
+            self._ahead = self._vehicle.advance()
+        except BaseException as error:  # noqa: BLE001 - raised by the read that needs the step
+            self._ahead, self._failure = False, error
+
     def pin(self) -> None:
         """Do nothing: there is only one sender."""
 
@@ -64,12 +79,22 @@ class VehicleSource:
         for _ in range(MAX_STEPS):
             if self._next.time > time:
                 return
-            if not self._vehicle.advance():
+            if not self._advance():
                 self._over = True
                 self._elapsed = self._next.time - self._start
                 return
             self._step(self._vehicle.state)
         self._elapsed = min(self._elapsed, self._next.time - self._start)
+
+    def _advance(self) -> bool:
+        """Step the vehicle, or take the step that was made ahead."""
+        if self._ahead is None:
+            return self._vehicle.advance()
+        ahead, failure = self._ahead, self._failure
+        self._ahead = self._failure = None
+        if failure is not None:
+            raise failure
+        return ahead
 
     def _step(self, state: VehicleState) -> None:
         jump = discontinuity(self._next, state)

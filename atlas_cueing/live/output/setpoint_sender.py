@@ -4,6 +4,7 @@
 
 import ipaddress
 import secrets
+import select
 import socket
 from collections.abc import Sequence
 from time import monotonic_ns
@@ -49,6 +50,9 @@ class SetPointSender:
         self._refused = False  # the last packet, by the receiver's machine
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.setblocking(False)
+        # asked every tick: an exception for each time that nothing has come costs more
+        self._arrivals = select.poll()
+        self._arrivals.register(self._socket, select.POLLIN)
         try:
             self._socket.connect((host, port))
         except (OSError, OverflowError) as error:
@@ -74,6 +78,8 @@ class SetPointSender:
         What is damaged, older than what came before, or for another session is left out.
         """
         found: list[DriveStatus] = []
+        if not self._arrivals.poll(0):
+            return found
         for _ in range(_MOST_STATUSES):
             try:
                 packet = self._socket.recv(status.SIZE + 1)

@@ -230,3 +230,39 @@ def test_jumps_back_and_forth_are_each_told() -> None:
     readings = reads(VehicleSource(RecordedVehicle(states)), ticks(0.75))
     assert sum(reading.jumped for reading in readings) == 4
     assert {round(abs(s.q_NB[2]), 6) for s in vehicles(readings)} == {0.0, round(abs(turned[2]), 6)}
+
+
+@pytest.mark.parametrize("loop_hz", [100.0, 120.0, 333.0, 1000.0])
+def test_a_step_made_ahead_changes_no_reading(loop_hz: float) -> None:
+    """Through a pause, up to the end of the flight and beyond it."""
+    alone, prepared = (VehicleSource(LimitedDuration(SignalVehicle(ROLL), 1.5)) for _ in range(2))
+    times = ticks(2.5, loop_hz)
+    for time, later in pairwise(times):
+        advance = not 0.5 < time < 0.8
+        assert prepared.read(time, advance) == alone.read(time, advance)
+        prepared.prepare(later)
+        prepared.prepare(later)
+
+
+def test_a_step_is_made_ahead_when_the_next_read_needs_it_and_not_before() -> None:
+    vehicle = Counted(dt=0.01)
+    source = VehicleSource(vehicle)
+    source.prepare(0.0)
+    assert vehicle.steps == 0  # nothing has been read
+    source.read(0.0, advance=True)
+    assert vehicle.steps == 1
+    source.prepare(0.009)
+    assert vehicle.steps == 1
+    source.prepare(0.0101)
+    assert vehicle.steps == 2
+    source.read(0.0101, advance=True)
+    assert vehicle.steps == 2
+
+
+def test_a_failure_ahead_is_raised_by_the_read_that_needs_the_step() -> None:
+    source = VehicleSource(Counted(dt=0.01, fails=0.015))
+    source.read(0.0, advance=True)
+    source.prepare(0.011)
+    source.read(0.009, advance=True)  # the good state before it is still there
+    with pytest.raises(VehicleError, match="broken"):
+        source.read(0.011, advance=True)
