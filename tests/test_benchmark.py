@@ -21,6 +21,7 @@ sys.path.insert(0, str(TOOL.parent))  # where its modules lie
 from benchmarks import (  # noqa: E402
     batches,
     kept,
+    live,
     memory,
     plant,
     recorder,
@@ -36,7 +37,7 @@ from benchmarks.machine import Stolen, build_kind, facts  # noqa: E402
 from benchmarks.rows import Asked, Row  # noqa: E402
 from benchmarks.timing import Cost  # noqa: E402
 
-ONCE = Effort(1, 1, 2.0, 4.0, 2, 0.25, 1, ((120.0, 3.0), (120.0, 4.0)))
+ONCE = Effort(1, 1, 2.0, 4.0, 2, 0.25, 1, 1, 2.0, ((120.0, 3.0), (120.0, 4.0)))
 
 
 def measured(section: Any, folder: Path) -> list[Row]:
@@ -287,3 +288,22 @@ def test_wrong_usage(arguments: list[str], message: str, tmp_path: Path) -> None
     )
     assert (told.returncode, told.stdout) == (2, "")
     assert message in told.stderr
+
+
+def test_the_live_loop_is_put_beside_a_bare_one(tmp_path: Path) -> None:
+    """A ride of two seconds, by the command itself."""
+    rows = {row.what: row for row in measured(live, tmp_path)}
+    shares = [rows[f"deadline to set point sent, {share}"] for share in ("p50", "p99", "p99.9")]
+    assert [row.value for row in shares] == sorted(row.value for row in shares)
+    assert all(row.ratio for row in shares)
+    cost = rows["tick at 1 kHz, everything on: wake-up to set point sent, p99.9"]
+    assert 0.0 < cost.value <= shares[-1].value
+    assert rows["garbage collections in a ride, most"].verdict == "met"
+
+
+def test_a_live_ride_that_cannot_begin_ends_the_benchmark(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(live, "_OPTIONS", ("--rate", "1"))
+    with pytest.raises(SystemExit, match="exit status 2\n.*rate"):
+        measured(live, tmp_path)

@@ -4,6 +4,7 @@ import errno
 import gc
 import os
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -149,3 +150,12 @@ def test_everything_is_given_back_after_an_exception() -> None:
         _ = 1 / 0
     assert gc.isenabled()
     assert (os.sched_getscheduler(0), os.sched_getaffinity(0)) == (scheduler, cores)
+
+
+@pytest.mark.skipif(not Path("/proc/self/timerslack_ns").exists(), reason="of Linux")
+def test_sleeps_end_on_time_inside_and_as_before_afterwards() -> None:
+    slack = Path("/proc/self/timerslack_ns")
+    before = int(slack.read_text())
+    with realtime_scheduling(priority=False):
+        assert int(slack.read_text()) == 1
+    assert int(slack.read_text()) == before > 1

@@ -13,6 +13,7 @@ class Effort:
     """Sizes of all measurements; flights in s of flight.
 
     rounds: of what is measured in this process; `processes`: fresh processes of each kind.
+    rides: live ones, of `ride` s each.
     memory: rate (Hz) and length (s) of each flight whose peak memory is measured, the shortest
         first.
     """
@@ -24,11 +25,13 @@ class Effort:
     batch_runs: int
     batch_flight: float
     batch_rounds: int
+    rides: int
+    ride: float
     memory: tuple[tuple[float, float], ...]
 
 
-FULL = Effort(9, 5, 60.0, 600.0, 16, 180.0, 3, ((120.0, 60.0), (120.0, 600.0)))
-QUICK = Effort(5, 3, 10.0, 60.0, 4, 10.0, 1, ((120.0, 10.0), (120.0, 120.0)))
+FULL = Effort(9, 5, 60.0, 600.0, 16, 180.0, 3, 3, 60.0, ((120.0, 60.0), (120.0, 600.0)))
+QUICK = Effort(5, 3, 10.0, 60.0, 4, 10.0, 1, 2, 12.0, ((120.0, 10.0), (120.0, 120.0)))
 HOURS = ((120.0, 3600.0), (1000.0, 60.0), (1000.0, 600.0), (1000.0, 3600.0))  # --long adds them
 
 

@@ -54,6 +54,9 @@ class ContactCheck:
         self._mass, self._com, self._inertia = mass, com_S, central_inertia_S
         self._J, self._inverse, self._unloaded = sphere_from_wheels, inverse, unloaded_W
         self._contacts, self._grip = contacts, grip
+        self._names = [
+            f"wheel {j + 1} " if j < 3 else f"support {j - 2} " for j in range(len(contacts))
+        ]
         self._axles, self._torque = axles, torque
 
     def breach(self, command: Command, q_WS: Quat) -> str:
@@ -61,8 +64,7 @@ class ContactCheck:
         found = self._balance(command, q_WS)
         d: Vec3 = (found[3], found[4], found[5])
         for j, (u, k, alone) in enumerate(self._contacts):
-            normal = alone + k * dot(u, d)
-            name = f"wheel {j + 1} " if j < 3 else f"support {j - 2} "
+            normal, name = alone + k * dot(u, d), self._names[j]
             breach = outside(name, "normal force", normal, 0.0, 1e300)
             if j < 3 and not breach:
                 breach = self._wheel_breach(j, name, found[:3][j], normal, command)
@@ -91,10 +93,11 @@ class ContactCheck:
         moment = add(add(turned, cross(w, spin)), cross(c, force))
         rest = add(force, self._unloaded)
         right = (moment[0], moment[1], moment[2], rest[0], rest[1], rest[2])
-        a, b, c1, d, e, f = (
-            sum([p * q for p, q in zip(row, right, strict=True)]) for row in self._inverse
+        a, b, c1, d, e, f = self._inverse
+        return (
+            *(_product(a, right), _product(b, right), _product(c1, right)),
+            *(_product(d, right), _product(e, right), _product(f, right)),
         )
-        return (a, b, c1, d, e, f)
 
     def _turned(self, q_WS: Quat, x: Vec3) -> Vec3:
         """Return the central inertia times x, in W."""
@@ -105,3 +108,8 @@ class ContactCheck:
         w = command.wheel_speed[i]
         loss = coulomb if w > 0.0 else -coulomb if w < 0.0 else 0.0
         return radius * drive + inertia * command.wheel_acceleration[i] + viscous * w + loss
+
+
+def _product(row: Six, x: Six) -> float:
+    a, b, c, d, e, f = row
+    return 0.0 + a * x[0] + b * x[1] + c * x[2] + d * x[3] + e * x[4] + f * x[5]
