@@ -305,5 +305,5 @@ def test_a_live_ride_that_cannot_begin_ends_the_benchmark(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(live, "_OPTIONS", ("--rate", "1"))
-    with pytest.raises(SystemExit, match="exit status 2\n.*rate"):
+    with pytest.raises(SystemExit, match=r"exit status 2\n.*rate"):
         measured(live, tmp_path)

@@ -2,10 +2,10 @@
 
 The ride is one of `atlas-cueing live --priority --json` in a process of its own: JSBSim, the
 default method on a platform that keeps traction, guard, set points to a simulated platform and
-statuses back, attitude correction, recorder. A tick's cost is from its wake-up until its set point is sent,
-and its answer from its deadline until then; both are in the log, tick by tick. What follows (the
-ring of the recorder, the vehicle's next step) is done before the next deadline. The bare loop
-sleeps by the same clock and policy, and does nothing: its answer is that of the machine.
+statuses back, attitude correction, recorder. A tick's cost is from its wake-up until its set point
+is sent, and its answer from its deadline until then; both are in the log, tick by tick. What
+follows (the ring of the recorder, the vehicle's next step) is done before the next deadline. The
+bare loop sleeps by the same clock and policy, and does nothing: its answer is that of the machine.
 """
 
 import json
