@@ -59,9 +59,8 @@ class LiveController:
         self._operator = operator
         self._drives = drives
         self._monitor = InputMonitor()
-        self._finishing = self._landing = False
-        # whether it was asked to engage, and has set out to the cue
-        self._asked = self._set_out = False
+        # the last two: whether it was asked to engage, and has set out to the cue
+        self._finishing = self._landing = self._asked = self._set_out = False
         self._attended, self._input_lost = operator.attended, False
         self._requests = 0  # to end, up to now
         unattended = operator.carries and not operator.attended
@@ -115,8 +114,7 @@ class LiveController:
                 tick = self._make_tick(slot)
             elif self._operator.stop_requests() > 1:
                 self._stop_at_once("asked to stop at once")
-        except BaseException as error:  # noqa: BLE001
-            # After any error the platform must come to a stop
+        except BaseException as error:  # noqa: BLE001 - after any the platform must stop
             self._fail(described(error))
         tick, command = self._guarded(slot, tick)
         if self._drives:
@@ -124,10 +122,7 @@ class LiveController:
         return tick, command
 
     def prepare(self, time: float) -> None:
-        """Do what can be done ahead of the tick at `time` (s), once a set point is out.
-
-        The step of the vehicle, which is the dearest part of a tick that has one.
-        """
+        """Step the vehicle ahead of the tick at `time` (s): its dearest part can be done early."""
         if self.state is State.RUNNING and not self._finishing:
             self._input.prepare(time)
 
@@ -272,16 +267,14 @@ class LiveController:
             return
         self._account.faults, self._landing = self._account.faults + 1, False
         # a platform that never left home needs no second request: nobody hangs there
-        requests = 0 if self._platform.has_not_left else self._requests
-        self._homecoming.note_fault(requests)
+        self._homecoming.note_fault(0 if self._platform.has_not_left else self._requests)
         self._account.fail("fault", reason)
         self._handle(Event.FAULT, reason)
 
     def _handle(self, event: Event, reason: str) -> None:
         """Take one event to monitor, source and state machine; note a change of state."""
         if event is Event.ENGAGE:
-            self._monitor.held = False
-            self._asked = True
+            self._monitor.held, self._asked = False, True
             if self.state is State.PARKED:  # perhaps the simulator has been started anew
                 self._source.release()
         elif event is Event.HOLD:
