@@ -1,5 +1,7 @@
 """The guard keeps traction by arithmetic of its own, and its stop is smoothing's soft stop."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -111,6 +113,26 @@ def test_it_stops_at_a_command_that_slips() -> None:
         guard.check(command_of(motion, smoothing.wheel_motion()), motion.q_WS)
     assert "force" in guard.reason or "standstill" in guard.reason
     assert "allowed" in guard.reason
+
+
+@pytest.mark.parametrize("torque", [None, 40.0])
+def test_it_finds_every_kind_of_breach_and_no_other(torque: float | None) -> None:
+    """Beside the same laws in other axes, over random states."""
+    kept = Kept("atlas-2.9m", 0.0)
+    model = replace(kept.model, drive=replace(kept.model.drive, torque=torque))
+    check, J = check_of(model), np.array(kept.wheels.sphere_from_wheels)
+    random, kinds = np.random.default_rng(7), set()
+    for _ in range(400):
+        size = 10.0 ** random.uniform(-2.0, 1.3)
+        vectors = [tuple((size * random.standard_normal(3)).tolist()) for _ in range(5)]
+        q = tuple(np.roll(Rotation.random(random_state=random).as_quat(), 1).tolist())
+        given = Command(0.0, *vectors, ZERO)  # type: ignore[arg-type]
+        breach = check.breach(given, q)
+        use, normal, torques = demand(model, flight_of(J, [(q, given)]))
+        strong = torque is not None and np.abs(torques).max() > torque
+        assert (breach == "") == (use.max() <= 1.0 and normal.min() >= 0.0 and not strong), breach
+        kinds |= {kind for kind in ("normal force", "drive force", "torque") if kind in breach}
+    assert kinds == {"normal force", "drive force"} | ({"torque"} if torque else set())
 
 
 def turned(q: tuple[float, ...], turn: np.ndarray) -> tuple[float, ...]:
