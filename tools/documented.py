@@ -43,7 +43,7 @@ def _documented(code: str, module: str, source: str) -> str:
         return f"{found['head']}PyDoc_STR({written} {_literal(text)})" if text else found[0]
 
     code = _CLASS.sub(with_words, _FUNCTION.sub(with_words, code))
-    of_module = f"PyDoc_STR({_literal(ast.get_docstring(tree) or '')}),"
+    of_module = f"PyDoc_STR({_literal(ast.get_docstring(tree, clean=False) or '')}),"
     return _MODULE.sub(lambda found: found["head"] + of_module, code)
 
 
