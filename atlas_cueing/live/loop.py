@@ -20,8 +20,9 @@ from ..signals import Tick
 from ..signals import Timing as TickTiming
 from .clock import Clock
 from .control.command import Command
-from .control.controller import LiveController
 from .control.slot import Slot
+from .control.state_machine import State
+from .input.source import SourceReading
 from .timing import LoopTiming
 
 LEAD = 0.008  # s, by default: what lateness and transport of a set point may use up
@@ -35,6 +36,31 @@ class Output(Protocol):
 
     def status(self, time: float, state: str, reason: str) -> None:
         """Take a change of state at `time` (s)."""
+
+
+class Controller(Protocol):
+    """Makes the ticks (`control.controller.LiveController`)."""
+
+    @property
+    def state(self) -> State:
+        """The state the platform is in."""
+
+    @property
+    def over(self) -> bool:
+        """Whether the run is over."""
+
+    @property
+    def reading(self) -> SourceReading:
+        """What the source said last."""
+
+    def take_changes(self) -> list[tuple[State, str]]:
+        """Return the changes of state since the last call, each with its reason."""
+
+    def tick(self, slot: Slot) -> tuple[Tick, Command]:
+        """Make the tick of this slot, and the command to the drives."""
+
+    def prepare(self, time: float) -> None:
+        """Do what can be done ahead of the tick at `time` (s)."""
 
 
 class Drives(Protocol):
@@ -64,7 +90,7 @@ class Loop:
         self,
         dt: float,
         clock: Clock,
-        controller: LiveController,
+        controller: Controller,
         outputs: Sequence[Output],
         drives: Sequence[Drives],
         origin: float | None = None,

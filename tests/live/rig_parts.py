@@ -126,14 +126,23 @@ class Tape:
 
 
 class Watched:
-    """A controller in the loop's hands, and what is done before each of its ticks."""
+    """A controller in the loop's hands, and what is done before each tick and ahead of the next."""
 
-    def __init__(self, controller: LiveController, before: Callable[[], None]) -> None:
-        self._controller, self._before = controller, before
+    def __init__(
+        self,
+        controller: LiveController,
+        before: Callable[[], None] = lambda: None,
+        ahead: Callable[[float], None] = lambda _: None,
+    ) -> None:
+        self._controller, self._before, self._ahead = controller, before, ahead
 
     def tick(self, slot: Slot) -> tuple[Tick, Command]:
         self._before()
         return self._controller.tick(slot)
+
+    def prepare(self, time: float) -> None:
+        self._ahead(time)
+        self._controller.prepare(time)
 
     def __getattr__(self, name: str) -> object:
         return getattr(self._controller, name)

@@ -166,9 +166,11 @@ def test_the_age_of_the_input_is_recorded_and_none_is_minus_one() -> None:
 def test_the_next_tick_is_prepared_when_all_of_this_one_has_gone_out() -> None:
     rig = Rig(DT)
     prepared: list[tuple[float, int, int]] = []
-    rig.controller.prepare = lambda time: prepared.append(  # type: ignore[method-assign]
-        (time, len(rig.tape.commands), len(rig.tape.ticks))
-    )
+
+    def ahead(time: float) -> None:
+        prepared.append((time, len(rig.tape.commands), len(rig.tape.ticks)))
+
+    rig.loop._controller = Watched(rig.controller, ahead=ahead)  # type: ignore[assignment]
     wait = rig.clock.sleep_until
 
     def sleep_until(time: float) -> None:
