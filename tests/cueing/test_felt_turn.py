@@ -13,24 +13,12 @@ from atlas_cueing.cueing import FeltTurnParameters
 from atlas_cueing.cueing.felt_turn import FeltTurn, decaying_gain, lasting_gain
 from atlas_cueing.rotation import ZERO, Vec3, add, norm, scale, subtract
 
+from .bilinear_canals import Canals
+
 LAW = FeltTurnParameters()
 part = st.floats(-50.0, 50.0) | st.floats(-0.1, 0.1)
 vectors = st.tuples(part, part, part)
 inputs = st.lists(st.tuples(vectors, vectors, vectors, st.integers(1, 300)), min_size=1, max_size=8)
-
-
-class Canals:
-    """The canals' feeling of a rate by the bilinear rule, from rest."""
-
-    def __init__(self, dt: float, time: float = LAW.canals) -> None:
-        self.half = 0.5 * dt / time
-        self.before = self.used_to = ZERO
-
-    def feel(self, rate: Vec3) -> Vec3:
-        half = self.half
-        driven = add(scale(1.0 - half, self.used_to), scale(half, add(self.before, rate)))
-        self.used_to, self.before = scale(1.0 / (1.0 + half), driven), rate
-        return subtract(rate, self.used_to)
 
 
 def follow(turn: FeltTurn, lasting: list[float], dt: float) -> list[tuple[float, float]]:

@@ -12,7 +12,8 @@ from atlas_cueing.errors import InputError
 from atlas_cueing.rotation import IDENTITY, ZERO, Quat, Vec3, angle_between, flip, norm
 from atlas_cueing.signals import VehicleState
 
-from .test_felt_turn import LAW, Canals
+from .bilinear_canals import Canals
+from .test_felt_turn import LAW
 from .test_perceptual import extra_rate, mirrored
 from .vehicles import LEVEL, level_turn, manoeuvring, standing, up_in_cabin
 from .wild_rides import wild_states

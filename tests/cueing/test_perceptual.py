@@ -28,7 +28,8 @@ from atlas_cueing.rotation import (
 )
 from atlas_cueing.signals import VehicleState
 
-from .test_felt_turn import LAW, Canals
+from .bilinear_canals import Canals
+from .test_felt_turn import LAW
 from .vehicles import LEVEL, level_turn, manoeuvring, standing, up_in_cabin, wild
 
 Sequence = list[tuple[Quat, Vec3, Vec3]]

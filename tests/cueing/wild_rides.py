@@ -31,7 +31,7 @@ from atlas_cueing.signals import TOPICS, Cue, Tick, VehicleState, tick_row
 from atlas_cueing.smoothing import Smoothing
 from atlas_cueing.wheels import Wheels
 
-from .test_felt_turn import Canals
+from .bilinear_canals import Canals
 
 REGRET_ETA = 0.1
 
