@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 from atlas_cueing.cueing.committee.draw import DRAW, Draw, turn_to
 from atlas_cueing.rotation import ZERO, Vec3, add, angle_between, conjugate, exp, norm, rotate
 
-from ..test_felt_turn import Canals, vectors
+from ..bilinear_canals import Canals
+from ..test_felt_turn import vectors
 
 UP: Vec3 = (0.0, 0.0, 1.0)
 inputs = st.lists(
