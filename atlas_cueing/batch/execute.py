@@ -38,7 +38,7 @@ class OneFlight:
         self._kept = kept
         self._most = most_bytes
         self._flown: RememberedVehicle | None = None
-        self.refused = False  # the model did not load, or its flight did not begin
+        self.unbegun = False  # the model did not load, or its flight did not begin
 
     def opened(self, scenario: Scenario) -> Vehicle:
         """Give the vehicle at its first state. Raises what `open_vehicle` raises."""
@@ -47,7 +47,7 @@ class OneFlight:
         try:
             vehicle = open_vehicle(scenario)
         except InputError:
-            self.refused = True
+            self.unbegun = True
             raise
         if not self._most:
             return vehicle
@@ -89,7 +89,7 @@ def fly_alone(job: Job, workdir: Path, flight: OneFlight | None = None) -> JobRe
     except OutputError as error:
         result = RunResult("recording_failed", str(error))
     except InputError as error:
-        word = "vehicle_failed" if flight.refused else REFUSED
+        word = "vehicle_failed" if flight.unbegun else REFUSED
         result = RunResult(word, str(error).replace(f"{folder}/", ""))
     except OSError as error:
         result = RunResult("recording_failed", f"{type(error).__name__}: {error}")

@@ -1,7 +1,7 @@
 """What a run makes when it first needs it, made once for all children of a worker.
 
 Models of a scenario's keys, protobuf classes, modules of numpy: a child that is forked after this
-has them, and makes them no more, which takes as long as a ride of a minute.
+has them, and makes them no more, which would be a third of what a ride of a minute takes.
 """
 
 import tempfile

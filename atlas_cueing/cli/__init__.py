@@ -49,10 +49,7 @@ logging.getLogger("atlas_cueing").addHandler(logging.NullHandler())
 
 
 def _app(words: Sequence[str]) -> typer.Typer:
-    """Make the command line of these arguments: the one command that they name, or else all.
-
-    All of them take as long to load as half of --help.
-    """
+    """Make the command line of these arguments: the one command that they name, or else all."""
     app = typer.Typer(
         help=(
             "Washout-free motion cueing: a flight becomes wheel velocity profiles of a sphere that"
